@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace gramloom {
+
+/// Width and height in pixels.
+struct Size {
+  int width = 0;
+  int height = 0;
+
+  friend bool operator==(const Size&, const Size&) = default;
+};
+
+/// A picture in memory: row-major, channels interleaved, float32.
+/// Integer files map to [0, 1]; float files keep their values. Values stay as encoded in the file
+/// (no change of gamma). An image is made with at least one pixel and one channel, or it is empty.
+struct Image {
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  std::vector<float> pixels;
+
+  Image() = default;
+  /// Throws Error when a dimension is negative or the image does not fit into memory.
+  Image(int width_, int height_, int channels_, float value = 0.0f);
+  Image(Size size_, int channels_, float value = 0.0f)
+      : Image(size_.width, size_.height, channels_, value) {}
+
+  Size size() const { return {width, height}; }
+  bool empty() const { return pixels.empty(); }
+  std::size_t index(int x, int y) const {
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+            static_cast<std::size_t>(x)) *
+           static_cast<std::size_t>(channels);
+  }
+  /// The first channel of pixel (x, y); its other channels follow.
+  float* at(int x, int y) { return pixels.data() + index(x, y); }
+  const float* at(int x, int y) const { return pixels.data() + index(x, y); }
+
+  friend bool operator==(const Image&, const Image&) = default;
+};
+
+/// Smallest and largest value of each channel, for results that stay in the exemplar's range.
+struct ChannelRange {
+  std::vector<float> low;
+  std::vector<float> high;
+};
+ChannelRange channel_range(const Image& image);
+
+/// Brings every value of `image` into `range` (same number of channels).
+void clamp_to(Image& image, const ChannelRange& range);
+
+/// `image` with channels [first, first + count).
+Image extract_channels(const Image& image, int first, int count);
+
+/// Which edges of a result must meet seamlessly.
+enum class Tile { none, x, y, both };
+
+inline bool tiles_x(Tile tile) { return tile == Tile::x || tile == Tile::both; }
+inline bool tiles_y(Tile tile) { return tile == Tile::y || tile == Tile::both; }
+
+/// What is wanted of a synthesis: the size of the result and which of its edges meet.
+struct Target {
+  Size size{256, 256};
+  Tile tile = Tile::none;
+};
+
+/// What a method returns: the texture, and other maps of the same surface by name ("height",
+/// "mask", "frame_0001"), each written beside it.
+struct Texture {
+  Image image;
+  std::map<std::string, Image> maps;
+};
+
+}  // namespace gramloom

@@ -1,0 +1,61 @@
+// The layers of the house: which folder of src may include which. Data flows one way.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path source = fs::path(GRAMLOOM_SOURCE_DIR) / "src";
+
+const std::map<std::string, std::set<std::string>> may_include{
+    {"core", {}},
+    {"io", {"core"}},
+    {"procedural", {"core"}},
+    {"classic", {"core"}},
+    {"surface", {"core"}},
+    {"neural", {"core", "io"}},
+    {"metrics", {"core", "neural"}},
+    {"report", {"core", "io"}},
+    {"jobs", {"core", "io", "procedural", "classic", "neural", "surface", "metrics"}},
+};
+
+TEST(Layers, EachFolderIncludesOnlyWhatLiesBelowIt) {
+  const std::regex include(R"re(^\s*#include\s+"([a-z_]+)/[^"]*")re");
+  int seen = 0;
+  for (const auto& [folder, allowed] : may_include)
+    for (const auto& file : fs::is_directory(source / folder)
+                                ? fs::recursive_directory_iterator(source / folder)
+                                : fs::recursive_directory_iterator()) {
+      std::ifstream text(file.path());
+      std::smatch match;
+      for (std::string line; std::getline(text, line);)
+        if (std::regex_search(line, match, include)) {
+          ++seen;
+          EXPECT_TRUE(match[1] == folder || allowed.contains(match[1]))
+              << file.path() << " includes " << match[1];
+        }
+    }
+  EXPECT_GT(seen, 5);
+}
+
+TEST(Layers, PublicHeadersHideTorch) {
+  for (const auto& file : fs::recursive_directory_iterator(source)) {
+    const auto name = file.path().filename().string();
+    const auto folder = file.path().parent_path().filename().string();
+    if (file.path().extension() != ".h" || folder == "neural") continue;
+    std::ifstream text(file.path());
+    for (std::string line; std::getline(text, line);) {
+      EXPECT_EQ(line.find("#include <torch"), std::string::npos) << file.path();
+      EXPECT_EQ(line.find("#include <ATen"), std::string::npos) << file.path();
+    }
+  }
+}
+
+}  // namespace
