@@ -57,9 +57,9 @@ ImageFile read_image(const std::filesystem::path& path);
 ///
 /// Channel names count when there is one for each channel; else they are Y; Y, A; R, G, B; R, G, B,
 /// A; and from the fifth on "channel4", …. Names, colour space and metadata come back from
-/// read_image for PNG, JPEG, TIFF, EXR and TGA: they are one JSON text in the image description
+/// read_image for PNG, JPEG, TIFF and EXR: they are one JSON text in the image description
 /// ({"gramloom": {"channels": […], "colour_space": "…", "metadata": {…}}}), the attribute that all
-/// of these have. BMP, PNM and HDR have none and lose them.
+/// of these have. TGA, BMP, PNM and HDR have none and lose them.
 ///
 /// Throws Error with the path for an unknown extension, channels that the format cannot hold (JPEG
 /// has no alpha), NaN or infinite pixels, two channels of one name, metadata too long for a JPEG

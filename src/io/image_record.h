@@ -9,7 +9,7 @@
 namespace gramloom {
 
 /// What an image file carries beside its pixels, as one text in the image description: the one
-/// attribute that PNG, JPEG, TIFF, EXR and TGA all have.
+/// attribute that PNG, JPEG, TIFF and EXR all have.
 struct ImageRecord {
   std::vector<std::string> channel_names;  // in the order of the channels in memory
   std::string colour_space;

@@ -35,7 +35,7 @@ constexpr auto formats = std::to_array<Format>({
     {"openexr", "", {f16, f32, f16, f32}},
     {"targa", "134", {u8, u8, u8, u8}},
     {"bmp", "134", {u8, u8, u8, u8}},
-    {"pnm", "13", {u8, u16, u16, u16}},
+    {"pnm", "13", {u8, u8, u8, u8}},
     {"hdr", "3", {f32, f32, f32, f32}},
 });
 
@@ -67,8 +67,8 @@ const Format& format_of(const OIIO::ImageOutput* output, const fs::path& path) {
 void check_channels(const Format& format, int channels) {
   if (format.channels.empty()) return;
   if (channels > 9 || format.channels.find(static_cast<char>('0' + channels)) == std::string::npos)
-    throw Error("this format cannot hold {} channel{} (.tif and .exr hold any number)", channels,
-                channels == 1 ? "" : "s");
+    throw Error("a {} file cannot hold {} channel{}; .tif and .exr hold any number", format.name,
+                channels, channels == 1 ? "" : "s");
 }
 
 std::vector<std::string> channel_names(const Image& image, const Encoding& encoding) {
