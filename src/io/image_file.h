@@ -62,8 +62,8 @@ ImageFile read_image(const std::filesystem::path& path);
 /// of these have. TGA, BMP, PNM and HDR have none and lose them.
 ///
 /// Throws Error with the path for an unknown extension, channels that the format cannot hold (JPEG
-/// has no alpha), NaN or infinite pixels, two channels of one name, metadata too long for a JPEG
-/// (64 kB), and for a file that cannot be written.
+/// has no alpha), a JPEG with a side above 65500 or more than 60 kB of metadata, NaN or infinite
+/// pixels, two channels of one name, and for a file that cannot be written.
 void write_image(const std::filesystem::path& path, const Image& image, const Encoding& encoding,
                  const Metadata& metadata = {});
 

@@ -64,11 +64,26 @@ const Format& format_of(const OIIO::ImageOutput* output, const fs::path& path) {
   return *found;
 }
 
-void check_channels(const Format& format, int channels) {
-  if (format.channels.empty()) return;
-  if (channels > 9 || format.channels.find(static_cast<char>('0' + channels)) == std::string::npos)
+void check_fits(const Format& format, const Image& image) {
+  if (!format.channels.empty() &&
+      (image.channels > 9 ||
+       format.channels.find(static_cast<char>('0' + image.channels)) == std::string::npos))
     throw Error("a {} file cannot hold {} channel{}; .tif and .exr hold any number", format.name,
-                channels, channels == 1 ? "" : "s");
+                image.channels, image.channels == 1 ? "" : "s");
+  // Beyond these, libjpeg ends the whole process.
+  if (format.name == "jpeg" && std::max(image.width, image.height) > 65500)
+    throw Error("a jpeg file cannot hold {}×{} pixels; a side has at most 65500", image.width,
+                image.height);
+}
+
+/// Names, colour space and metadata as the text that every format keeps.
+std::string describe(const Format& format, const ImageRecord& record) {
+  std::string text = to_description(record);
+  constexpr std::size_t jpeg_limit =
+      60'000;  // a JPEG segment has 64 kB; again, libjpeg would end us
+  if (format.name == "jpeg" && text.size() > jpeg_limit)
+    throw Error("{} bytes of metadata are too many for a jpeg file", text.size());
+  return text;
 }
 
 std::vector<std::string> channel_names(const Image& image, const Encoding& encoding) {
@@ -99,7 +114,9 @@ OIIO::ImageSpec make_spec(const Format& format, const Image& image, const Encodi
   spec.attribute("oiio:UnassociatedAlpha", 1);  // or OpenImageIO divides colours by alpha
   if (!encoding.colour_space.empty()) spec.attribute("oiio:ColorSpace", encoding.colour_space);
   spec.attribute("ImageDescription",
-                 to_description({spec.channelnames, encoding.colour_space, metadata}));
+                 describe(format, {spec.channelnames, encoding.colour_space, metadata}));
+  // An EXIF part in a TIFF needs to read what is already written, which memory here does not allow.
+  spec.attribute("tiff:write_exif", 0);
   spec.attribute("DateTime", "");  // or OpenImageIO writes the time of day into TIFF and EXR
   if (format.name == "jpeg") {
     spec.attribute("Compression", "jpeg:98");
@@ -129,7 +146,7 @@ void write_image(const fs::path& path, const Image& image, const Encoding& encod
     check_finite(image);
     const auto output = OIIO::ImageOutput::create(path.string());
     const Format& format = format_of(output.get(), path);
-    check_channels(format, image.channels);
+    check_fits(format, image);
     bytes = encode(*output, make_spec(format, image, encoding, metadata), image, path);
   } catch (const std::exception& error) {
     throw Error("{}: {}", path.string(), error.what());

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 
 #include <csignal>
 #include <map>
@@ -19,25 +18,17 @@ namespace {
 using testing::HasSubstr;
 using TextFile = TempFolder;
 
-/// Runs `action` in a process of its own whose files cannot grow beyond `bytes`, as on a full disk.
-/// True when it ends in an Error that says so.
-bool fails_on_full_disk(rlim_t bytes, const std::function<void()>& action) {
-  const pid_t child = fork();
-  if (child == 0) {
-    std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{bytes, bytes};
-    setrlimit(RLIMIT_FSIZE, &limit);
-    try {
-      action();
-    } catch (const Error& error) {
-      const bool clear = std::string(error.what()).ends_with(": cannot write: File too large");
-      _exit(clear ? 3 : 4);
-    }
-    _exit(0);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) && WEXITSTATUS(status) == 3;
+/// The Error of `action` while no file can grow beyond `bytes`, as on a full disk.
+std::string error_on_full_disk(rlim_t bytes, const std::function<void()>& action) {
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit old_limit{};
+  getrlimit(RLIMIT_FSIZE, &old_limit);
+  const rlimit limit{bytes, old_limit.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &limit);
+  const std::string error = error_of(action);
+  setrlimit(RLIMIT_FSIZE, &old_limit);
+  std::signal(SIGXFSZ, old_handler);
+  return error;
 }
 
 TEST_F(TextFile, RoundTripKeepsEveryByte) {
@@ -107,7 +98,8 @@ TEST_F(TextFile, AFullDiskLeavesTheOldFileAndNothingElse) {
        }}};
   for (const auto& [name, write] : writers) {
     write_text(path(name), "old");
-    EXPECT_TRUE(fails_on_full_disk(500, [&] { write(path(name)); })) << name;
+    EXPECT_EQ(error_on_full_disk(500, [&] { write(path(name)); }),
+              path(name).string() + ": cannot write: File too large");
     EXPECT_EQ(read_text(path(name)), "old");
   }
   EXPECT_EQ(file_count(), static_cast<std::ptrdiff_t>(writers.size()));
