@@ -13,8 +13,8 @@ namespace gramloom {
 /// How a file stores a value: 8- or 16-bit integers for [0, 1], half or single floats as they are.
 enum class PixelType { uint8, uint16, half, float32 };
 template <>
-inline constexpr auto enum_names<PixelType> =
-    std::to_array<std::string_view>({"uint8", "uint16", "half", "float"});
+inline constexpr auto enum_names<PixelType> = std::to_array<std::string_view>({"uint8", "uint16",
+                                                                               "half", "float"});
 
 /// What a file knows of its pixels beyond their values; it travels from exemplar to result.
 struct Encoding {
@@ -25,23 +25,45 @@ struct Encoding {
   friend bool operator==(const Encoding&, const Encoding&) = default;
 };
 
+/// Texts in a file by name. Use names with a prefix ("gramloom:settings") for what is ours.
 using Metadata = std::map<std::string, std::string>;
 
 struct ImageFile {
   Image image;
   Encoding encoding;
-  Metadata metadata;  // the text attributes
+  Metadata metadata;  // of a file of ours: what write_image was given; else its text attributes
 };
 
-/// Reads any format that OpenImageIO reads, first subimage, all channels; alpha is a channel like
-/// any other (never premultiplied, never dropped). Throws Error with the path for a file that is
-/// missing, empty, truncated, corrupt, or larger than memory, and for NaN or infinite pixels.
+/// Reads any format that OpenImageIO reads, first subimage, all channels. A camera's note to turn
+/// the picture (EXIF orientation) is followed. Palettes are expanded, CMYK becomes RGB.
+///
+/// Alpha is a channel like any other: never dropped, and colours come as the file stores them,
+/// neither multiplied nor divided by it. So colour under zero alpha is kept. (The colours of an EXR
+/// are premultiplied by convention: they are, and after write_image stay, what they were; an image
+/// from a PNG that is written as EXR is not premultiplied by us.)
+///
+/// Throws Error with the path for a file that is missing, empty, truncated, corrupt or larger than
+/// memory, for a header that claims far more pixels than a file of its length can hold (before
+/// anything is allocated), and for NaN or infinite pixels.
 ImageFile read_image(const std::filesystem::path& path);
 
-/// Writes `image` in the format of the path's extension, complete or not at all (temporary name in
-/// the same folder, then renamed). A pixel type that the format lacks becomes the next better one
-/// that it has, or, where it has none better, its best. Integer types clamp to [0, 1] and round to
-/// nearest. Throws Error with the path.
+/// Writes `image` as PNG, JPEG, TIFF, EXR, TGA, BMP, PNM or HDR, by the path's extension, complete
+/// or not at all (see write_text). The same image gives the same bytes: there are no dates inside.
+///
+/// A pixel type that the format lacks becomes the next better one that it has, or, where it has
+/// none better, its best: half in TIFF becomes float; half and float in PNG uint16; uint8 in EXR
+/// half. Integer types clamp to [0, 1] and round to nearest. JPEG is written at quality 98 without
+/// colour subsampling.
+///
+/// Channel names count when there is one for each channel; else they are Y; Y, A; R, G, B; R, G, B,
+/// A; and from the fifth on "channel4", …. Names, colour space and metadata come back from
+/// read_image for PNG, JPEG, TIFF and EXR: they are one JSON text in the image description
+/// ({"gramloom": {"channels": […], "colour_space": "…", "metadata": {…}}}), the attribute that all
+/// of these have. TGA, BMP, PNM and HDR have none and lose them.
+///
+/// Throws Error with the path for an unknown extension, channels that the format cannot hold (JPEG
+/// has no alpha), a JPEG with a side above 65500 or more than 60 kB of metadata, NaN or infinite
+/// pixels, two channels of one name, and for a file that cannot be written.
 void write_image(const std::filesystem::path& path, const Image& image, const Encoding& encoding,
                  const Metadata& metadata = {});
 

@@ -1,0 +1,157 @@
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+#include "core/error.h"
+#include "io/check_finite.h"
+#include "io/image_file.h"
+#include "io/image_record.h"
+#include "io/text_file.h"
+
+namespace gramloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a format can hold. We write only those that keep alpha as it is, and report what they
+/// cannot do: of the others, OpenImageIO drops channels or multiplies colours by alpha without a
+/// word.
+struct Format {
+  std::string_view name;                 // OpenImageIO's
+  std::string_view channels;             // the counts it holds; "" for any
+  std::array<PixelType, 4> stored_as{};  // for each PixelType
+};
+
+constexpr PixelType u8 = PixelType::uint8, u16 = PixelType::uint16, f16 = PixelType::half,
+                    f32 = PixelType::float32;
+constexpr auto formats = std::to_array<Format>({
+    {"png", "1234", {u8, u16, u16, u16}},
+    {"jpeg", "13", {u8, u8, u8, u8}},
+    // Half floats in TIFF are an extension that few programs read.
+    {"tiff", "", {u8, u16, f32, f32}},
+    {"openexr", "", {f16, f32, f16, f32}},
+    {"targa", "134", {u8, u8, u8, u8}},
+    {"bmp", "134", {u8, u8, u8, u8}},
+    {"pnm", "13", {u8, u8, u8, u8}},
+    {"hdr", "3", {f32, f32, f32, f32}},
+});
+
+OIIO::TypeDesc oiio_type(PixelType type) {
+  switch (type) {
+    case PixelType::uint8:
+      return OIIO::TypeDesc::UINT8;
+    case PixelType::uint16:
+      return OIIO::TypeDesc::UINT16;
+    case PixelType::half:
+      return OIIO::TypeDesc::HALF;
+    case PixelType::float32:
+      break;
+  }
+  return OIIO::TypeDesc::FLOAT;
+}
+
+const Format& format_of(const OIIO::ImageOutput* output, const fs::path& path) {
+  const auto found = std::find_if(formats.begin(), formats.end(), [&](const Format& format) {
+    return output && format.name == output->format_name();
+  });
+  if (found == formats.end())
+    throw Error(
+        "no image format that can be written has the extension '{}' (use .png, .tif or .exr)",
+        path.extension().string());
+  return *found;
+}
+
+void check_fits(const Format& format, const Image& image) {
+  if (!format.channels.empty() &&
+      (image.channels > 9 ||
+       format.channels.find(static_cast<char>('0' + image.channels)) == std::string::npos))
+    throw Error("a {} file cannot hold {} channel{}; .tif and .exr hold any number", format.name,
+                image.channels, image.channels == 1 ? "" : "s");
+  // Beyond these, libjpeg ends the whole process.
+  if (format.name == "jpeg" && std::max(image.width, image.height) > 65500)
+    throw Error("a jpeg file cannot hold {}×{} pixels; a side has at most 65500", image.width,
+                image.height);
+}
+
+/// Names, colour space and metadata as the text that every format keeps.
+std::string describe(const Format& format, const ImageRecord& record) {
+  std::string text = to_description(record);
+  constexpr std::size_t jpeg_limit =
+      60'000;  // a JPEG segment has 64 kB; again, libjpeg would end us
+  if (format.name == "jpeg" && text.size() > jpeg_limit)
+    throw Error("{} bytes of metadata are too many for a jpeg file", text.size());
+  return text;
+}
+
+std::vector<std::string> channel_names(const Image& image, const Encoding& encoding) {
+  const auto count = static_cast<std::size_t>(image.channels);
+  if (encoding.channel_names.size() == count) {
+    const std::set<std::string> different(encoding.channel_names.begin(),
+                                          encoding.channel_names.end());
+    if (different.size() != count || different.contains(""))
+      throw Error("two channels have the same name, or one has none");
+    return encoding.channel_names;
+  }
+  if (count == 1) return {"Y"};
+  if (count == 2) return {"Y", "A"};
+  std::vector<std::string> names{"R", "G", "B", "A"};
+  for (std::size_t c = 4; c < count; ++c) names.push_back(fmt::format("channel{}", c));
+  names.resize(count);
+  return names;
+}
+
+OIIO::ImageSpec make_spec(const Format& format, const Image& image, const Encoding& encoding,
+                          const Metadata& metadata) {
+  const auto type = format.stored_as[static_cast<std::size_t>(encoding.pixel_type)];
+  OIIO::ImageSpec spec(image.width, image.height, image.channels, oiio_type(type));
+  spec.channelnames = channel_names(image, encoding);
+  const auto alpha = std::find(spec.channelnames.begin(), spec.channelnames.end(), "A");
+  spec.alpha_channel =
+      alpha == spec.channelnames.end() ? -1 : static_cast<int>(alpha - spec.channelnames.begin());
+  spec.attribute("oiio:UnassociatedAlpha", 1);  // or OpenImageIO divides colours by alpha
+  if (!encoding.colour_space.empty()) spec.attribute("oiio:ColorSpace", encoding.colour_space);
+  spec.attribute("ImageDescription",
+                 describe(format, {spec.channelnames, encoding.colour_space, metadata}));
+  // An EXIF part in a TIFF needs to read what is already written, which memory here does not allow.
+  spec.attribute("tiff:write_exif", 0);
+  spec.attribute("DateTime", "");  // or OpenImageIO writes the time of day into TIFF and EXR
+  if (format.name == "jpeg") {
+    spec.attribute("Compression", "jpeg:98");
+    spec.attribute("jpeg:subsampling", "4:4:4");
+  }
+  return spec;
+}
+
+/// In memory, so that one place (write_text) looks after full disks and half-written files.
+std::string encode(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec, const Image& image,
+                   const fs::path& path) {
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  if (!output.set_ioproxy(&memory) || !output.open(path.string(), spec) ||
+      !output.write_image(OIIO::TypeDesc::FLOAT, image.pixels.data()) || !output.close())
+    throw Error("cannot be encoded: {}", output.geterror());
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+void write_image(const fs::path& path, const Image& image, const Encoding& encoding,
+                 const Metadata& metadata) {
+  std::string bytes;
+  try {
+    if (image.empty()) throw Error("an empty image cannot be written");
+    check_finite(image);
+    const auto output = OIIO::ImageOutput::create(path.string());
+    const Format& format = format_of(output.get(), path);
+    check_fits(format, image);
+    bytes = encode(*output, make_spec(format, image, encoding, metadata), image, path);
+  } catch (const std::exception& error) {
+    throw Error("{}: {}", path.string(), error.what());
+  }
+  write_text(path, bytes);
+}
+
+}  // namespace gramloom

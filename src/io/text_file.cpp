@@ -1,0 +1,113 @@
+#include "io/text_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "core/error.h"
+
+namespace gramloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+Error system_error(const fs::path& path, std::string_view what) {
+  return Error("{}: cannot {}: {}", path.string(), what, std::strerror(errno));
+}
+
+/// An open file descriptor that closes itself.
+class File {
+ public:
+  File(const fs::path& path, int flags)
+      : descriptor_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  ~File() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+
+  bool is_open() const { return descriptor_ >= 0; }
+  int descriptor() const { return descriptor_; }
+  /// Some file systems report a full disk only when the file is closed.
+  bool close_now() { return close(std::exchange(descriptor_, -1)) == 0; }
+
+ private:
+  int descriptor_;
+};
+
+bool write_all(int descriptor, std::string_view text) {
+  // Linux writes at most 2 GB a call.
+  constexpr std::size_t most = 1 << 30;
+  while (!text.empty()) {
+    const ssize_t count = write(descriptor, text.data(), std::min(text.size(), most));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+void write_device(const fs::path& path, std::string_view text) {
+  File file(path, O_WRONLY);
+  if (!file.is_open() || !write_all(file.descriptor(), text) || !file.close_now())
+    throw system_error(path, "write");
+}
+
+/// Another name in the folder of `path`: the process and a count keep writers apart.
+fs::path temporary_name(const fs::path& path) {
+  static std::atomic<unsigned> count{0};
+  // A file name has at most 255 bytes.
+  return path.parent_path() / fmt::format(".{}.{}.{}.tmp", path.filename().string().substr(0, 200),
+                                          getpid(), count.fetch_add(1));
+}
+
+void replace_file(const fs::path& path, std::string_view text) {
+  const fs::path temporary = temporary_name(path);
+  File file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
+  if (!file.is_open()) throw system_error(path, "write");
+  if (!write_all(file.descriptor(), text) || fsync(file.descriptor()) != 0 || !file.close_now() ||
+      rename(temporary.c_str(), path.c_str()) != 0) {
+    const Error error = system_error(path, "write");
+    unlink(temporary.c_str());
+    throw error;
+  }
+  // The new name survives a power cut only once its folder is on the disk, too.
+  const File folder(path.has_parent_path() ? path.parent_path() : ".", O_RDONLY | O_DIRECTORY);
+  if (folder.is_open()) fsync(folder.descriptor());
+}
+
+}  // namespace
+
+std::string read_text(const fs::path& path) {
+  const File file(path, O_RDONLY);
+  if (!file.is_open()) throw system_error(path, "read");
+  std::error_code ignored;
+  const auto size = fs::file_size(path, ignored);  // a pipe has none
+  std::string text;
+  if (!ignored) text.reserve(size);
+  std::string buffer(std::size_t{1} << 20, '\0');
+  for (;;) {
+    const ssize_t count = read(file.descriptor(), buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw system_error(path, "read");
+    if (count == 0) return text;
+    text.append(buffer, 0, static_cast<std::size_t>(count));
+  }
+}
+
+void write_text(const fs::path& path, std::string_view text) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::is_directory(status)) throw Error("{}: cannot write: Is a directory", path.string());
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    write_device(path, text);
+  else
+    replace_file(path, text);
+}
+
+}  // namespace gramloom

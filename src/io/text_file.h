@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace gramloom {
+
+/// The whole file, byte for byte. Throws Error with the path: missing, a folder, unreadable.
+std::string read_text(const std::filesystem::path& path);
+
+/// Writes `text` (any bytes) to `path`, complete or not at all: a temporary file in the same folder
+/// (".NAME.PID.COUNT.tmp", gone afterwards whatever happens short of SIGKILL) is written, flushed
+/// to the disk and renamed, so a reader sees the old file or the new one. A device or pipe
+/// (/dev/stdout) is written directly. Every file of gramloom is written through here.
+/// Throws Error with the path: no such folder, not writable, disk full, a folder of that name.
+void write_text(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace gramloom
