@@ -23,7 +23,8 @@ namespace gramloom {
 ///     int patch_size = 32;
 ///     static constexpr auto fields() {
 ///       return std::tuple{
-///           Field{"patch_size", &QuiltingParams::patch_size, "side of a patch", "pixels", {4, 512}}};
+///           Field{"patch_size", &QuiltingParams::patch_size, "side of a patch", "pixels", {4,
+///           512}}};
 ///     }
 ///   };
 ///
@@ -35,7 +36,7 @@ template <class E>
 inline constexpr std::array<std::string_view, 0> enum_names{};
 
 template <class E>
-concept NamedEnum = std::is_enum_v<E> && (std::size(enum_names<E>) > 0);
+concept NamedEnum = std::is_enum_v<E> &&(std::size(enum_names<E>) > 0);
 
 template <NamedEnum E>
 constexpr std::string_view to_word(E value) {

@@ -19,9 +19,9 @@ double polynomial(const double (&coefficients)[N], double x) {
 // Acklam's rational approximation of the inverse normal distribution function (relative error
 // 1.15e-9, well below float's): only division, square root and our own logarithm.
 double inverse_normal(double p) {
-  constexpr double a[] = {-3.969683028665376e+01, 2.209460984245205e+02, -2.759285104469687e+02,
+  constexpr double a[] = {-3.969683028665376e+01, 2.209460984245205e+02,  -2.759285104469687e+02,
                           1.383577518672690e+02,  -3.066479806614716e+01, 2.506628277459239e+00};
-  constexpr double b[] = {-5.447609879822406e+01, 1.615858368580409e+02, -1.556989798598866e+02,
+  constexpr double b[] = {-5.447609879822406e+01, 1.615858368580409e+02,  -1.556989798598866e+02,
                           6.680131188771972e+01,  -1.328068155288572e+01, 1.0};
   constexpr double c[] = {-7.784894002430293e-03, -3.223964580411365e-01, -2.400758277161838e+00,
                           -2.549732539343734e+00, 4.374664141464968e+00,  2.938163982698783e+00};
@@ -53,15 +53,15 @@ std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
 Random Random::stream(std::uint64_t part) const {
   // A hash of (own stream, part) is the child's stream: two levels of splitting never collide in
   // practice, and the seed stays what the user wrote.
-  const auto words = philox({low(part), high(part), 0x6C6F6F6Du, 0x6772616Du},
-                            {low(stream_), high(stream_)});
+  const auto words =
+      philox({low(part), high(part), 0x6C6F6F6Du, 0x6772616Du}, {low(stream_), high(stream_)});
   return Random(seed_, (std::uint64_t{words[1]} << 32) | words[0]);
 }
 
 std::uint32_t Random::bits() {
   if (left_ == 0) {
-    buffer_ = philox({low(block_), high(block_), low(stream_), high(stream_)},
-                     {low(seed_), high(seed_)});
+    buffer_ =
+        philox({low(block_), high(block_), low(stream_), high(stream_)}, {low(seed_), high(seed_)});
     ++block_;
     left_ = 4;
   }

@@ -18,14 +18,14 @@ enum class RandomWeights { he_normal, orthogonal };
 enum class Optimizer { lbfgs, adam };
 
 template <>
-inline constexpr auto enum_names<Padding> =
-    std::to_array<std::string_view>({"circular", "reflect", "zero", "valid"});
+inline constexpr auto enum_names<Padding> = std::to_array<std::string_view>({"circular", "reflect",
+                                                                             "zero", "valid"});
 template <>
-inline constexpr auto enum_names<Pooling> =
-    std::to_array<std::string_view>({"as_described", "average", "max"});
+inline constexpr auto enum_names<Pooling> = std::to_array<std::string_view>({"as_described",
+                                                                             "average", "max"});
 template <>
-inline constexpr auto enum_names<RandomWeights> =
-    std::to_array<std::string_view>({"he_normal", "orthogonal"});
+inline constexpr auto enum_names<RandomWeights> = std::to_array<std::string_view>({"he_normal",
+                                                                                   "orthogonal"});
 template <>
 inline constexpr auto enum_names<Optimizer> = std::to_array<std::string_view>({"lbfgs", "adam"});
 
@@ -47,6 +47,7 @@ struct NeuralParams {
   int weights_seed = 1;
   bool rescale = true;
   Padding padding = Padding::circular;
+  Padding exemplar_padding = Padding::reflect;
   Pooling pooling = Pooling::as_described;
 
   std::vector<std::string> layers;
@@ -78,8 +79,11 @@ struct NeuralParams {
         Field{"rescale", &P::rescale,
               "scale each filter so that its mean activation on the exemplar is 1"},
         Field{"padding", &P::padding, "what a convolution sees beyond an edge that does not tile"},
+        Field{"exemplar_padding", &P::exemplar_padding,
+              "what a convolution sees beyond the edges of the exemplar"},
         Field{"pooling", &P::pooling, "how pooling layers pool"},
-        Field{"layers", &P::layers, "layers whose statistics are matched; empty: the network's own"},
+        Field{"layers", &P::layers,
+              "layers whose statistics are matched; empty: the network's own"},
         Field{"layer_weights", &P::layer_weights, "weight w of each layer; empty: 1 each", "", {0}},
         Field{"normalise", &P::normalise,
               "divide each layer's error by its value for the exemplar against nothing"},
@@ -91,16 +95,31 @@ struct NeuralParams {
               "decorrelate the channels by the exemplar's principal components"},
         Field{"optimizer", &P::optimizer, "how the image is changed"},
         Field{"iterations", &P::iterations, "steps of the optimiser on each level", "", {0, 1e6}},
-        Field{"learning_rate", &P::learning_rate, "step of Adam, in units of the whitened image", "",
+        Field{"learning_rate",
+              &P::learning_rate,
+              "step of Adam, in units of the whitened image",
+              "",
               {1e-6, 10}},
         Field{"history", &P::history, "steps that L-BFGS remembers", "steps", {1, 1000}},
-        Field{"stop_loss", &P::stop_loss, "stop when the loss is below this part of the first one",
-              "", {0, 1}},
-        Field{"stop_seconds", &P::stop_seconds, "stop after this time", "seconds",
+        Field{"stop_loss",
+              &P::stop_loss,
+              "stop when the loss is below this part of the first one",
+              "",
+              {0, 1}},
+        Field{"stop_seconds",
+              &P::stop_seconds,
+              "stop after this time",
+              "seconds",
               {0, std::numeric_limits<double>::infinity()}},
-        Field{"levels", &P::levels, "levels of the image pyramid, coarse to fine; 1: no pyramid", "",
+        Field{"levels",
+              &P::levels,
+              "levels of the image pyramid, coarse to fine; 1: no pyramid",
+              "",
               {1, 12}},
-        Field{"level_factor", &P::level_factor, "size of a level relative to the next finer one", "",
+        Field{"level_factor",
+              &P::level_factor,
+              "size of a level relative to the next finer one",
+              "",
               {0.25, 0.95}},
         Field{"start", &P::start, "image to start from; empty: noise"},
         Field{"match_histogram", &P::match_histogram,

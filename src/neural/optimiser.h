@@ -1,0 +1,73 @@
+#pragma once
+
+#include <ATen/ATen.h>
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <string>
+#include <variant>
+
+namespace gramloom::neural {
+
+/// The loss at x, its gradient written to `gradient` (same shape as x).
+using Objective = std::function<double(const at::Tensor& x, at::Tensor& gradient)>;
+
+/// Everything an optimiser needs to go on later exactly as if it had not stopped.
+struct SavedState {
+  std::map<std::string, at::Tensor> tensors;
+  std::map<std::string, double> numbers;
+};
+
+/// Limited-memory BFGS (Liu, Nocedal 1989) with a line search for the strong Wolfe conditions
+/// (Nocedal, Wright 2006, algorithms 3.5 and 3.6 with cubic interpolation, c₁ = 1e-4, c₂ = 0.9).
+/// x is changed in place; it is the optimiser's vector and the picture at once.
+class Lbfgs {
+ public:
+  explicit Lbfgs(int history) : history_(history) {}
+
+  /// One step, of one evaluation or a few more. Returns the loss after it. When no lower loss can
+  /// be found along the gradient itself, x stays as it is and `converged` becomes true.
+  double step(at::Tensor& x, const Objective& objective);
+  bool converged() const { return converged_; }
+
+  SavedState save() const;
+  void load(const SavedState& state);
+
+ private:
+  at::Tensor direction() const;
+  void remember(const at::Tensor& moved, const at::Tensor& gradient_change);
+
+  int history_;
+  bool converged_ = false;
+  double value_ = 0;
+  at::Tensor gradient_;
+  struct Pair {
+    at::Tensor s, y;  // change of x and of the gradient
+    double inverse_sy;
+  };
+  std::deque<Pair> pairs_;
+};
+
+/// Adam (Kingma, Ba 2015, algorithm 1; β₁ = 0.9, β₂ = 0.99, ε = 1e-8; β₂ below the paper's 0.999
+/// because the gradient's size falls by orders of magnitude within a synthesis).
+class Adam {
+ public:
+  explicit Adam(double learning_rate) : learning_rate_(learning_rate) {}
+
+  /// One step, one evaluation. Returns the loss before it.
+  double step(at::Tensor& x, const Objective& objective);
+  bool converged() const { return false; }
+
+  SavedState save() const;
+  void load(const SavedState& state);
+
+ private:
+  double learning_rate_;
+  std::int64_t steps_ = 0;
+  at::Tensor first_, second_;
+};
+
+using AnyOptimiser = std::variant<Lbfgs, Adam>;
+
+}  // namespace gramloom::neural

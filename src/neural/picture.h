@@ -1,0 +1,14 @@
+#pragma once
+
+#include <ATen/ATen.h>
+
+#include "core/colour_pca.h"
+#include "core/image.h"
+
+namespace gramloom::neural {
+
+/// (channels, height, width), float.
+at::Tensor to_planes(const Image& image);
+Image to_image(const at::Tensor& planes);
+
+}  // namespace gramloom::neural

@@ -1,0 +1,76 @@
+#include "neural/settings.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "io/field_values.h"
+#include "io/text_file.h"
+
+namespace gramloom::neural {
+
+std::vector<Loss::MatchedLayer> matched_layers(const NeuralParams& params,
+                                               const NetworkDescription& description) {
+  const auto& names = params.layers.empty() ? description.matched : params.layers;
+  if (!params.layer_weights.empty() && params.layer_weights.size() != names.size())
+    throw ConfigError("layer_weights has {} values for {} layers ({})", params.layer_weights.size(),
+                      names.size(), fmt::join(names, ", "));
+  std::vector<Loss::MatchedLayer> layers;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    layers.push_back({find_layer(description, names[i]),
+                      params.layer_weights.empty() ? 1 : params.layer_weights[i]});
+  std::sort(layers.begin(), layers.end(),
+            [](const auto& a, const auto& b) { return a.index < b.index; });
+  for (std::size_t i = 1; i < layers.size(); ++i)
+    if (layers[i].index == layers[i - 1].index)
+      throw ConfigError("layer '{}' is named twice", description.layers[layers[i].index].name);
+  return layers;
+}
+
+Network make_network(const NeuralParams& params, const NetworkDescription& description,
+                     int channels) {
+  const auto shapes = filter_shapes(description, channels);
+  if (params.weights.empty())
+    return {description, shapes,
+            random_filters(shapes, params.random_weights,
+                           static_cast<std::uint64_t>(params.weights_seed)),
+            params.pooling};
+  if (!description.input_mean.empty() &&
+      description.input_mean.size() != static_cast<std::size_t>(channels))
+    throw Error("{}: trained weights of '{}' look at {} channels, the exemplar has {}",
+                params.weights.string(), description.name, description.input_mean.size(), channels);
+  return {description, shapes, load_filters(description, shapes, params.weights), params.pooling};
+}
+
+namespace {
+
+// FNV-1a, 64 bits.
+class Hash {
+ public:
+  void add(const void* data, std::size_t size) {
+    for (std::size_t i = 0; i < size; ++i)
+      value_ = (value_ ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001B3u;
+  }
+  void add(const std::string& text) { add(text.data(), text.size()); }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xCBF29CE484222325u;
+};
+
+}  // namespace
+
+std::string fingerprint(const NeuralParams& params, const Image& exemplar, const Target& target,
+                        Random random) {
+  Hash hash;
+  for_each_field<NeuralParams>([&](const auto& field) {
+    hash.add(fmt::format("{}={};", field.name, value_to_text(params.*field.member)));
+  });
+  hash.add(fmt::format("{}×{} {} seed {} exemplar {}×{}×{};", target.size.width, target.size.height,
+                       to_word(target.tile), random.seed(), exemplar.width, exemplar.height,
+                       exemplar.channels));
+  hash.add(read_text(find_network(params.network)));
+  hash.add(exemplar.pixels.data(), exemplar.pixels.size() * sizeof(float));
+  return fmt::format("{:016x}", hash.value());
+}
+
+}  // namespace gramloom::neural

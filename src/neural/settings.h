@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "neural/loss.h"
+#include "neural/synthesis.h"
+
+namespace gramloom::neural {
+
+/// The layers that `params` asks for with their weights, in the network's order. Throws
+/// ConfigError for an unknown layer, or weights that are not one for each layer.
+std::vector<Loss::MatchedLayer> matched_layers(const NeuralParams& params,
+                                               const NetworkDescription& description);
+
+/// The network with its weights, random or from a file, for pictures of `channels` channels.
+/// Throws ConfigError when trained weights are for another number of channels.
+Network make_network(const NeuralParams& params, const NetworkDescription& description,
+                     int channels);
+
+/// A hash of everything that the result depends on, for checkpoints.
+std::string fingerprint(const NeuralParams& params, const Image& exemplar, const Target& target,
+                        Random random);
+
+}  // namespace gramloom::neural

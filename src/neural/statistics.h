@@ -1,0 +1,47 @@
+#pragma once
+
+#include "neural/feature_maps.h"
+
+namespace gramloom::neural {
+
+/// Second moments of feature maps over positions: gram = F Fᵀ / M, (channels, channels), and the
+/// means of the maps, (channels). Sums over positions, so neither order nor number matters.
+struct Moments {
+  at::Tensor gram;
+  at::Tensor mean;
+};
+
+/// One matrix product; its gradient (∂gram + ∂gramᵀ) F / M is one more.
+Moments moments(const FeatureMaps& maps);
+
+/// How the Gram matrices of one layer are compared.
+struct GramOptions {
+  bool normalise = true;
+  bool centre = true;
+  bool standardise = true;
+};
+
+/// What one layer of the exemplar has, and how far a result is from it:
+///   E = 1/(4 N²) Σ (G − Ĝ)²
+/// with Gram matrices divided by the number of positions M (Gatys, Ecker, Bethge 2015, equation 3,
+/// whose 1/(4 N² M²) is this for M equal on both sides). Departures, each by its option:
+///   centre:      F is replaced by F − μ̂ with the exemplar's means μ̂, and E gains the means'
+///                difference, 2/(4 N²) Σ (μ − μ̂)², as if a constant map 1 had joined F;
+///   standardise: each map is divided by its standard deviation on the exemplar (about 0 when
+///                not centred);
+///   normalise:   E is divided by its value for G = 0, μ = μ̂, so that layers weigh alike.
+class GramTarget {
+ public:
+  GramTarget(const Moments& exemplar, const GramOptions& options);
+  /// E, a scalar.
+  at::Tensor distance(const Moments& result) const;
+
+ private:
+  at::Tensor transformed(const Moments& m) const;
+
+  GramOptions options_;
+  at::Tensor mean_, inverse_deviation_, gram_;
+  double scale_ = 1;
+};
+
+}  // namespace gramloom::neural

@@ -1,0 +1,72 @@
+// The gradient of the whole loss on a tiny picture against finite differences in double.
+#include <gtest/gtest.h>
+
+#include "neural/loss.h"
+#include "tensors.h"
+
+namespace gramloom::neural {
+namespace {
+
+struct Case {
+  Padding padding;
+  Pooling pooling;
+  GramOptions options;
+};
+
+NetworkDescription tiny_network() {
+  NetworkDescription network;
+  network.name = "tiny";
+  network.layers = {{"conv1", ConvolutionLayer{6, 3, 1}},
+                    {"relu1", ReluLayer{}},
+                    {"pool1", AveragePoolLayer{}},
+                    {"bank2", BankLayer{4, {3, 3}, {1, 2}, {0, 0.6}}},
+                    {"relu2", ReluLayer{}}};
+  return network;
+}
+
+class GradientTest : public testing::TestWithParam<Case> {};
+
+TEST_P(GradientTest, MatchesFiniteDifferences) {
+  const Case c = GetParam();
+  const NetworkDescription description = tiny_network();
+  const auto shapes = filter_shapes(description, 2);
+  auto weights = random_filters(shapes, RandomWeights::he_normal, 3);
+  for (auto& w : weights) w.weights = w.weights.to(at::kDouble);
+  const Network network(description, shapes, weights, c.pooling);
+  const Edges edges{c.padding, c.padding};
+  const at::Tensor exemplar = numbers({2, 16, 18}, 1, at::kDouble);
+  Loss loss(network, description, {{0, 0.5}, {1, 1}, {2, 2}, {4, 1.5}}, c.options, exemplar, edges,
+            edges);
+
+  const at::Tensor picture = numbers({2, 15, 17}, 2, at::kDouble);
+  at::Tensor gradient = at::empty_like(picture), unused = at::empty_like(picture);
+  loss(picture, gradient);
+  ASSERT_GT(gradient.abs().max().item<double>(), 0);
+  Random random(9);
+  for (int trial = 0; trial < 6; ++trial) {  // along random directions, all pixels at once
+    const at::Tensor direction = numbers(picture.sizes(), 100 + random.bits(), at::kDouble);
+    const double step = 1e-6;
+    const double difference =
+        (loss(picture + step * direction, unused) - loss(picture - step * direction, unused)) /
+        (2 * step);
+    const double slope = (gradient * direction).sum().item<double>();
+    EXPECT_NEAR(slope, difference, 1e-5 * gradient.norm().item<double>());
+  }
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const auto padding : {Padding::circular, Padding::reflect, Padding::zero, Padding::valid})
+    for (const auto pooling : {Pooling::average, Pooling::max})
+      all.push_back({padding, pooling, {true, true, true}});
+  for (int options = 0; options < 8; ++options)
+    all.push_back({Padding::circular,
+                   Pooling::average,
+                   {(options & 1) != 0, (options & 2) != 0, (options & 4) != 0}});
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, GradientTest, testing::ValuesIn(cases()));
+
+}  // namespace
+}  // namespace gramloom::neural

@@ -1,0 +1,79 @@
+#include "neural/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include "tensors.h"
+
+namespace gramloom::neural {
+namespace {
+
+TEST(Moments, KnownByHand) {
+  // Two maps at three positions: (1, 2, 3) and (0, 1, −1).
+  const at::Tensor planes = at::tensor({1.0, 2.0, 3.0, 0.0, 1.0, -1.0}).view({2, 1, 3});
+  const Moments m = moments(to_maps(planes.to(at::kDouble)));
+  EXPECT_LT(relative_difference(m.gram * 3, at::tensor({14.0, -1.0, -1.0, 2.0}).view({2, 2})),
+            1e-7);
+  EXPECT_LT(relative_difference(m.mean, at::tensor({2.0, 0.0})), 1e-7);
+}
+
+TEST(Moments, SymmetricAndPositiveSemiDefinite) {
+  const at::Tensor gram = moments(to_maps(numbers({24, 9, 7}, 1, at::kDouble))).gram;
+  EXPECT_LT(relative_difference(gram, gram.t()), 1e-14);
+  EXPECT_GT(std::get<0>(at::linalg_eigh(gram)).min().item<double>(), -1e-12);
+}
+
+TEST(Moments, UnchangedByShufflingPositions) {
+  const at::Tensor planes = numbers({10, 6, 8}, 2, at::kDouble);
+  const at::Tensor order = at::randperm(48);
+  const at::Tensor shuffled = planes.reshape({10, 48}).index_select(1, order).reshape({10, 6, 8});
+  const Moments a = moments(to_maps(planes)), b = moments(to_maps(shuffled));
+  EXPECT_LT(relative_difference(a.gram, b.gram), 1e-12);
+  EXPECT_LT(relative_difference(a.mean, b.mean), 1e-12);
+}
+
+// E_l as Gatys, Ecker and Bethge write it: 1/(4 N² M²) Σ (G − Ĝ)² with G = F Fᵀ.
+TEST(GramTarget, IsThePapersErrorWhenNothingIsAsked) {
+  const at::Tensor f = numbers({5, 4, 6}, 3, at::kDouble), g = numbers({5, 4, 6}, 4, at::kDouble);
+  const at::Tensor a = f.view({5, 24}), b = g.view({5, 24});
+  const double expected =
+      (at::mm(a, a.t()) - at::mm(b, b.t())).square().sum().item<double>() / (4.0 * 25 * 24 * 24);
+  const GramTarget target(moments(to_maps(f)), {false, false, false});
+  EXPECT_NEAR(target.distance(moments(to_maps(g))).item<double>(), expected, 1e-12 * expected);
+}
+
+TEST(GramTarget, CentredAndStandardisedIsThatOfTheTransformedMaps) {
+  const at::Tensor f = numbers({4, 5, 5}, 5, at::kDouble) * 3 + 2;
+  const at::Tensor g = numbers({4, 5, 5}, 6, at::kDouble) + 1;
+  const at::Tensor mean = f.mean({1, 2}, true), deviation = f.std({1, 2}, false, true);
+  const auto with_constant = [&](const at::Tensor& maps) {
+    const at::Tensor rows = ((maps - mean) / deviation).view({4, 25});
+    const at::Tensor all = at::cat({rows, at::ones({1, 25}, at::kDouble)});
+    return at::mm(all, all.t()) / 25;
+  };
+  const at::Tensor own = with_constant(f), other = with_constant(g);
+  const double expected = (own - other).square().sum().item<double>() / (4 * 16);
+  const GramTarget target(moments(to_maps(f)), {false, true, true});
+  EXPECT_NEAR(target.distance(moments(to_maps(g))).item<double>(), expected, 1e-9 * expected);
+}
+
+TEST(GramTarget, ZeroAtTheExemplarItselfAndOneAtNothing) {
+  for (const bool centre : {false, true})
+    for (const bool standardise : {false, true}) {
+      const Moments m = moments(to_maps(numbers({8, 6, 6}, 7, at::kDouble)));
+      const GramTarget target(m, {true, centre, standardise});
+      EXPECT_NEAR(target.distance(m).item<double>(), 0, 1e-20);
+      // Maps that are flat at the exemplar's means (or zero) have no centred Gram matrix.
+      const at::Tensor flat = centre ? m.mean : at::zeros_like(m.mean);
+      EXPECT_NEAR(target.distance({at::outer(flat, flat), flat}).item<double>(), 1, 1e-9);
+    }
+}
+
+TEST(GramTarget, FlatMapsOfTheExemplarMakeNoInfinity) {
+  const FeatureMaps flat = to_maps(at::full({3, 4, 4}, 2.0f));
+  const GramTarget target(moments(flat), {true, true, true});
+  const double error = target.distance(moments(to_maps(numbers({3, 4, 4}, 8)))).item<double>();
+  EXPECT_TRUE(std::isfinite(error));
+}
+
+}  // namespace
+}  // namespace gramloom::neural

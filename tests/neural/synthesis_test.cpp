@@ -1,0 +1,213 @@
+#include "neural/synthesis.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/threads.h"
+
+namespace gramloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Diagonal stripes with some noise: structure and grain.
+Image stripes(Size size, int channels) {
+  Image image(size, channels);
+  Random random(1);
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x)
+      for (int c = 0; c < channels; ++c)
+        image.at(x, y)[c] = ((x + y + 3 * c) % 8 < 4 ? 0.2f : 0.7f) + 0.1f * random.uniform();
+  return image;
+}
+
+NeuralParams quick() {
+  NeuralParams params;
+  params.network = "vgg_small";
+  params.layers = {"relu1_1", "pool1", "pool2"};
+  params.iterations = 12;
+  return params;
+}
+
+struct Trace {
+  std::vector<Progress> steps;
+  Control control(std::int64_t stop_at = -1, fs::path checkpoint = {}) {
+    return {[this, stop_at](const Progress& progress) {
+              steps.push_back(progress);
+              return progress.step != stop_at;
+            },
+            std::move(checkpoint)};
+  }
+};
+
+Image run(const NeuralParams& params, const Image& exemplar, const Target& target,
+          std::uint64_t seed = 1) {
+  return synthesise(params, exemplar, target, Random(seed), {}).image;
+}
+
+TEST(Neural, TheLossFallsAHundredfold) {
+  NeuralParams params = quick();
+  params.iterations = 80;
+  Trace trace;
+  synthesise(params, stripes({64, 64}, 3), {{64, 64}, Tile::both}, Random(1), trace.control());
+  ASSERT_FALSE(trace.steps.empty());
+  EXPECT_LT(trace.steps.back().loss, trace.steps.front().loss / 100);
+}
+
+TEST(Neural, ReportsEachStepWithItsTerms) {
+  Trace trace;
+  synthesise(quick(), stripes({48, 48}, 3), {{48, 40}, Tile::none}, Random(1), trace.control());
+  ASSERT_EQ(trace.steps.size(), 12u);
+  for (std::size_t i = 0; i < trace.steps.size(); ++i) {
+    const Progress& p = trace.steps[i];
+    EXPECT_EQ(p.step, static_cast<std::int64_t>(i) + 1);
+    EXPECT_EQ(p.steps, 12);
+    EXPECT_GE(p.evaluations, p.step);
+    ASSERT_EQ(p.terms.size(), 3u);
+    EXPECT_EQ(p.terms[1].name, "pool1");
+    double sum = 0;
+    for (const auto& term : p.terms) sum += term.value;
+    EXPECT_NEAR(sum, p.loss, 1e-3 * p.loss);
+  }
+}
+
+TEST(Neural, TheSeedDecides) {
+  const Image exemplar = stripes({40, 40}, 3);
+  const Target target{{32, 48}, Tile::both};
+  const Image once = run(quick(), exemplar, target, 1);
+  EXPECT_EQ(once, run(quick(), exemplar, target, 1));
+  EXPECT_NE(once, run(quick(), exemplar, target, 2));
+}
+
+TEST(Neural, AnySizeAndChannelsWithinTheExemplarsRange) {
+  for (const int channels : {1, 2, 4, 6})
+    for (const Size size : {Size{24, 56}, Size{33, 31}}) {
+      const Image exemplar = stripes({44, 36}, channels);
+      for (const auto padding :
+           {Padding::circular, Padding::reflect, Padding::zero, Padding::valid}) {
+        NeuralParams params = quick();
+        params.iterations = 3;
+        params.padding = padding;
+        params.layers = {"relu1_1", "pool1"};
+        const Image result = run(params, exemplar, {size, Tile::x});
+        EXPECT_EQ(result.size(), size);
+        EXPECT_EQ(result.channels, channels);
+        const ChannelRange range = channel_range(exemplar), own = channel_range(result);
+        for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c) {
+          EXPECT_GE(own.low[c], range.low[c]);
+          EXPECT_LE(own.high[c], range.high[c]);
+        }
+      }
+    }
+}
+
+TEST(Neural, AConstantExemplarGivesAConstantImage) {
+  const Image flat({32, 32}, 3, 0.25f);
+  for (const char* network : {"vgg_small", "multiscale"}) {
+    NeuralParams params;
+    params.network = network;
+    params.iterations = 5;
+    const Image result = run(params, flat, {{32, 32}, Tile::both});
+    for (const float value : result.pixels) ASSERT_EQ(value, 0.25f);
+  }
+}
+
+TEST(Neural, AnOnlyPixelOrALineIsAClearErrorOrAResult) {
+  for (const Size size : {Size{1, 1}, Size{1, 40}}) {
+    try {
+      const Image result = run(quick(), Image(size, 3, 0.5f), {{32, 32}, Tile::none});
+      for (const float value : result.pixels) EXPECT_TRUE(std::isfinite(value));
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("too small"), std::string::npos);
+    }
+  }
+}
+
+TEST(Neural, CoarseToFineEndsAtTheFinestSize) {
+  NeuralParams params = quick();
+  params.levels = 3;
+  params.level_factor = 0.6;
+  params.iterations = 4;
+  Trace trace;
+  const Texture texture =
+      synthesise(params, stripes({64, 64}, 3), {{50, 70}, Tile::both}, Random(1), trace.control());
+  EXPECT_EQ(texture.image.size(), (Size{50, 70}));
+  EXPECT_EQ(trace.steps.back().step, 12);
+  EXPECT_EQ(trace.steps.back().steps, 12);
+}
+
+TEST(Neural, StopsByLossAndBySeconds) {
+  NeuralParams params = quick();
+  params.iterations = 200;
+  params.stop_loss = 0.3;
+  Trace by_loss;
+  synthesise(params, stripes({48, 48}, 3), {{48, 48}, Tile::both}, Random(1), by_loss.control());
+  EXPECT_LT(by_loss.steps.size(), 200u);
+  EXPECT_LE(by_loss.steps.back().loss, 0.3 * by_loss.steps.front().loss);
+  params.stop_loss = 0;
+  params.stop_seconds = 0;
+  Trace by_seconds;
+  synthesise(params, stripes({48, 48}, 3), {{48, 48}, Tile::both}, Random(1), by_seconds.control());
+  EXPECT_EQ(by_seconds.steps.size(), 1u);
+}
+
+TEST(Neural, HistogramMatchingGivesTheExemplarsValues) {
+  NeuralParams params = quick();
+  params.match_histogram = true;
+  const Image exemplar = stripes({40, 40}, 3);
+  Image result = run(params, exemplar, {{40, 40}, Tile::both});
+  auto sorted = [](const Image& image) {
+    std::vector<float> red;
+    for (std::size_t i = 0; i < image.pixels.size(); i += 3) red.push_back(image.pixels[i]);
+    std::sort(red.begin(), red.end());
+    return red;
+  };
+  EXPECT_EQ(sorted(result), sorted(exemplar));
+}
+
+class Interrupted : public testing::TestWithParam<Optimizer> {};
+
+TEST_P(Interrupted, GoesOnToTheSameBytes) {
+  NeuralParams params = quick();
+  params.optimizer = GetParam();
+  params.levels = 2;
+  const Image exemplar = stripes({48, 48}, 3);
+  const Target target{{48, 48}, Tile::both};
+  const fs::path checkpoint =
+      fs::path(testing::TempDir()) / fmt::format("neural_{}.checkpoint", to_word(params.optimizer));
+  fs::remove(checkpoint);
+  const Image whole = run(params, exemplar, target);
+  for (const std::int64_t stop : {1, 7, 12, 13, 20}) {
+    Trace first, second;
+    synthesise(params, exemplar, target, Random(1), first.control(stop, checkpoint));
+    EXPECT_EQ(first.steps.back().step, stop);
+    ASSERT_TRUE(fs::exists(checkpoint));
+    const Image resumed =
+        synthesise(params, exemplar, target, Random(1), second.control(-1, checkpoint)).image;
+    EXPECT_EQ(second.steps.front().step, stop + 1);
+    EXPECT_EQ(resumed, whole) << "stopped at " << stop;
+    fs::remove(checkpoint);
+  }
+}
+
+TEST_P(Interrupted, ACheckpointOfAnotherSynthesisIsNotUsed) {
+  NeuralParams params = quick();
+  params.optimizer = GetParam();
+  const Image exemplar = stripes({40, 40}, 3);
+  const Target target{{40, 40}, Tile::both};
+  const fs::path checkpoint =
+      fs::path(testing::TempDir()) / fmt::format("other_{}.checkpoint", to_word(params.optimizer));
+  Trace first, second;
+  synthesise(params, exemplar, target, Random(1), first.control(5, checkpoint));
+  synthesise(params, exemplar, target, Random(2), second.control(-1, checkpoint));
+  EXPECT_EQ(second.steps.front().step, 1);
+  fs::remove(checkpoint);
+}
+
+INSTANTIATE_TEST_SUITE_P(Optimisers, Interrupted,
+                         testing::Values(Optimizer::lbfgs, Optimizer::adam),
+                         [](const auto& test) { return std::string(to_word(test.param)); });
+
+}  // namespace
+}  // namespace gramloom
