@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "classic/histogram.h"
+#include "classic/phase.h"
 #include "core/error.h"
 #include "core/threads.h"
 
@@ -74,7 +75,7 @@ class Invariants : public testing::Test {
 };
 
 // The one list: a method added here is held to all of it.
-using Methods = testing::Types<HistogramParams>;
+using Methods = testing::Types<HistogramParams, PhaseParams>;
 
 struct KindNames {
   template <class Params>

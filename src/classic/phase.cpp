@@ -1,0 +1,161 @@
+#include "classic/phase.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "classic/check_input.h"
+#include "classic/fourier.h"
+#include "core/threads.h"
+
+namespace gramloom {
+
+namespace {
+
+using Complex = std::complex<float>;
+
+/// Unit numbers exp(iθ), θ uniform, for columns 0 to width/2 of a spectrum. A real image asks for
+/// θ(−k) = −θ(k), which within these columns concerns the two that mirror themselves; where k and
+/// −k coincide only the sign is free, and the mean keeps its own.
+cv::Mat random_phases(Size size, Random random) {
+  const int columns = size.width / 2 + 1;
+  cv::Mat phases(size.height, columns, CV_32FC2);
+  parallel_for(size.height, 16, [&](std::int64_t begin, std::int64_t end) {
+    for (auto y = static_cast<int>(begin); y < end; ++y) {
+      Random row = random.stream(static_cast<std::uint64_t>(y));
+      for (int x = 0; x < columns; ++x)
+        phases.at<Complex>(y, x) = std::polar(1.0f, row.uniform() * 2 * std::numbers::pi_v<float>);
+    }
+  });
+  const auto mirror = [&](int x) {
+    for (int y = 0; y < size.height; ++y) {
+      const int opposite = (size.height - y) % size.height;
+      auto& phase = phases.at<Complex>(y, x);
+      if (opposite < y)
+        phase = std::conj(phases.at<Complex>(opposite, x));
+      else if (opposite == y)
+        phase = phase.real() < 0 ? -1.0f : 1.0f;
+    }
+  };
+  mirror(0);
+  if (size.width % 2 == 0) mirror(size.width / 2);
+  phases.at<Complex>(0, 0) = 1;
+  return phases;
+}
+
+/// Multiplies a spectrum by a random phase at each frequency.
+void add_phases(cv::Mat& coefficients, const cv::Mat& phases) {
+  for (int y = 0; y < phases.rows; ++y) {
+    auto* out = coefficients.ptr<Complex>(y);
+    const auto* phase = phases.ptr<Complex>(y);
+    for (int x = 0; x < phases.cols; ++x) {
+      const float re = out[x].real() * phase[x].real() - out[x].imag() * phase[x].imag();
+      const float im = out[x].real() * phase[x].imag() + out[x].imag() * phase[x].real();
+      out[x] = {re, im};
+    }
+  }
+}
+
+/// The weights of an axis of the spot: 1 where the period is no longer than what is analysed,
+/// else fading at both ends; scaled so that a spot keeps the exemplar's variance over the period.
+std::vector<float> spot_weights(const AxisPlan& axis, double fade) {
+  std::vector<double> weights(static_cast<std::size_t>(axis.analysed), 1.0);
+  double energy = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double place = (static_cast<double>(i) + 0.5) / axis.analysed;
+    const double from_edge = std::min(place, 1 - place);
+    if (axis.period > axis.analysed && from_edge < fade)
+      weights[i] = 0.5 - 0.5 * std::cos(std::numbers::pi * from_edge / fade);
+    energy += weights[i] * weights[i];
+  }
+  const double scale = std::sqrt(axis.period / energy);
+  std::vector<float> scaled;
+  for (const double w : weights) scaled.push_back(static_cast<float>(scale * w));
+  return scaled;
+}
+
+/// Spectrum of the spot: the periodic component, less its mean, weighted, and laid into the period,
+/// around which it wraps if it is longer. The mean is put back at frequency 0.
+cv::Mat spot_coefficients(const cv::Mat& plane, const AxisPlan& across, const AxisPlan& down,
+                          double fade) {
+  cv::Mat periodic = periodic_coefficients(plane);
+  if (across.period == across.analysed && down.period == down.analysed) return periodic;
+  const Complex mean = periodic.at<Complex>(0, 0);
+  periodic.at<Complex>(0, 0) = 0;
+  const cv::Mat centred = from_fourier_coefficients(periodic);
+  const auto weight_x = spot_weights(across, fade), weight_y = spot_weights(down, fade);
+  cv::Mat spot = cv::Mat::zeros(down.period, across.period, CV_32F);
+  for (int y = 0; y < centred.rows; ++y)
+    for (int x = 0; x < centred.cols; ++x)
+      spot.at<float>(y % down.period, x % across.period) += centred.at<float>(y, x) *
+                                                            weight_x[static_cast<std::size_t>(x)] *
+                                                            weight_y[static_cast<std::size_t>(y)];
+  cv::Mat coefficients = fourier_coefficients(spot);
+  coefficients.at<Complex>(0, 0) = mean;
+  return coefficients;
+}
+
+/// body(channel) in parallel.
+void for_each_channel(const Image& image, const std::function<void(int)>& body) {
+  parallel_for(image.channels, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (auto c = static_cast<int>(begin); c < end; ++c) body(c);
+  });
+}
+
+}  // namespace
+
+Texture synthesise(const PhaseParams& params, const Image& exemplar, const Target& target,
+                   Random random, const Control& control) {
+  check_input(exemplar, target);
+  const AxisPlan across = plan_axis(exemplar.width, target.size.width, tiles_x(target.tile));
+  const AxisPlan down = plan_axis(exemplar.height, target.size.height, tiles_y(target.tile));
+  control.step(0, 2);
+  const cv::Mat phases = random_phases({across.period, down.period}, random);
+  control.step(1, 2);
+  Image result(target.size, exemplar.channels);
+  for_each_channel(result, [&](int c) {
+    const cv::Mat plane = channel_plane(exemplar, c, {across.analysed, down.analysed});
+    cv::Mat coefficients = spot_coefficients(plane, across, down, params.fade);
+    add_phases(coefficients, phases);
+    set_channel(result, c, from_fourier_coefficients(coefficients));
+  });
+  clamp_to(result, channel_range(exemplar));
+  control.step(2, 2);
+  return {std::move(result), {}};
+}
+
+Cost estimate(const PhaseParams&, Size exemplar, int channels, const Target& target) {
+  const double in = static_cast<double>(exemplar.width) * exemplar.height;
+  const double out = static_cast<double>(std::max(target.size.width, exemplar.width)) *
+                     std::max(target.size.height, exemplar.height);
+  const int in_flight = std::min(channels, thread_count());
+  // Each channel in flight: its plane, spectrum and the transform's own copy; the phases are
+  // shared.
+  return {4 * channels * (in + out) + in_flight * 24 * out + 4 * out, channels * 5e-8 * out};
+}
+
+Image periodic_component(const Image& image) {
+  Image result(image.size(), image.channels);
+  for_each_channel(result, [&](int c) {
+    set_channel(
+        result, c,
+        from_fourier_coefficients(periodic_coefficients(channel_plane(image, c, image.size()))));
+  });
+  return result;
+}
+
+Image random_phase_noise(const Image& spot, Random random) {
+  const cv::Mat phases = random_phases(spot.size(), random);
+  Image result(spot.size(), spot.channels);
+  for_each_channel(result, [&](int c) {
+    cv::Mat coefficients = fourier_coefficients(channel_plane(spot, c, spot.size()));
+    add_phases(coefficients, phases);
+    set_channel(result, c, from_fourier_coefficients(coefficients));
+  });
+  return result;
+}
+
+}  // namespace gramloom

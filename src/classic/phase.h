@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string_view>
+#include <tuple>
+
+#include "core/fields.h"
+#include "core/image.h"
+#include "core/progress.h"
+#include "core/random.h"
+
+namespace gramloom {
+
+/// Random phase noise: the exemplar's spectrum with random phases, the same ones added to each
+/// channel so that colours stay together. Galerne, Gousseau, Morel 2011, "Random phase textures:
+/// theory and synthesis", IEEE Transactions on Image Processing 20(1), section V; also IPOL 2011,
+/// "Micro-texture synthesis by phase randomization". Grain, cloth and water come out right, shapes
+/// dissolve. The periodic component is taken first (Moisan 2011), so edges leave no cross.
+///
+/// Larger results: the exemplar less its mean, faded out at its border and in the middle of zeros,
+/// is the spot whose phases are randomised (IPOL, algorithm 2).
+/// Departures: the border fades by a raised cosine in place of the paper's integral of a bump,
+/// which differs by less than the random phases do. A tile smaller than the exemplar, which the
+/// paper does not treat, wraps the spot around: its covariance is the exemplar's, wrapped likewise.
+/// The result, which is close to Gaussian, is clamped to the exemplar's range.
+struct PhaseParams {
+  static constexpr std::string_view kind = "phase";
+  static constexpr std::string_view summary =
+      "the exemplar's spectrum with random phases (grain without structure)";
+  double fade = 0.1;
+  static constexpr auto fields() {
+    return std::tuple{
+        Field{"fade",
+              &PhaseParams::fade,
+              "width of the exemplar's border that fades out where the result is larger",
+              "share of the side",
+              {0, 0.5}}};
+  }
+};
+
+/// Throws Error for input that check_input() refuses.
+Texture synthesise(const PhaseParams&, const Image& exemplar, const Target&, Random,
+                   const Control&);
+Cost estimate(const PhaseParams&, Size exemplar, int channels, const Target&);
+
+/// The periodic component of each channel of an image (Moisan 2011): the same mean, and opposite
+/// edges that meet.
+Image periodic_component(const Image& image);
+
+/// The image whose spectrum has the moduli of the spot's and random phases: the method's core,
+/// without any change of size or range. Means stay.
+Image random_phase_noise(const Image& spot, Random random);
+
+}  // namespace gramloom
