@@ -6,6 +6,7 @@
 
 #include "classic/histogram.h"
 #include "classic/phase.h"
+#include "classic/pyramid.h"
 #include "core/error.h"
 #include "core/threads.h"
 
@@ -75,7 +76,7 @@ class Invariants : public testing::Test {
 };
 
 // The one list: a method added here is held to all of it.
-using Methods = testing::Types<HistogramParams, PhaseParams>;
+using Methods = testing::Types<HistogramParams, PhaseParams, PyramidParams>;
 
 struct KindNames {
   template <class Params>
