@@ -125,8 +125,8 @@ Cost estimate(const PyramidParams& params, Size exemplar, int channels, const Ta
   // Samples of all bands, in images: level 0 and the high-pass in full, a quarter a level down.
   const double bands = params.orientations * 4.0 / 3 + 1.1;
   const int in_flight = std::min(params.orientations + 1, thread_count());
-  // Filters 2 bytes a sample, matched bands 8, bands in flight with what sorting needs 40.
-  return {4 * channels * 2 * (in + out) + out * (16 + 10 * bands + 40 * in_flight),
+  // Filters 2 bytes a sample, matched bands 8, bands in flight with what sorting needs 24.
+  return {4 * channels * 2 * (in + out) + out * (16 + 10 * bands + 24 * in_flight),
           channels * params.iterations * 3e-8 * bands * out};
 }
 

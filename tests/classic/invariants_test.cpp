@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "classic/histogram.h"
+#include "classic/markov.h"
 #include "classic/phase.h"
 #include "classic/pyramid.h"
 #include "core/error.h"
@@ -75,8 +76,15 @@ class Invariants : public testing::Test {
   }
 };
 
+/// Variants of a method that take paths of their own are listed beside its defaults.
+struct CausalMarkov : MarkovParams {
+  static constexpr std::string_view kind = "markov_causal";
+  CausalMarkov() { neighbourhood = MarkovNeighbourhood::causal; }
+};
+
 // The one list: a method added here is held to all of it.
-using Methods = testing::Types<HistogramParams, PhaseParams, PyramidParams>;
+using Methods =
+    testing::Types<HistogramParams, MarkovParams, CausalMarkov, PhaseParams, PyramidParams>;
 
 struct KindNames {
   template <class Params>

@@ -116,12 +116,24 @@ TEST(Pyramid, ConvergesToTheBandsOfAnOrientedTexture) {
   for (int y = 0; y < 128; ++y)
     for (int x = 0; x < 128; ++x)
       for (int k = 0; k < 9; ++k) *exemplar.at(x, y) += *white.at(x + k, y) / 9;
-  const Image image =
-      synthesise(PyramidParams{}, exemplar, Target{{128, 128}}, Random(2), Control{}).image;
   const auto pyramid = steerable_pyramid({128, 128}, 3, 4);
-  const auto before = band_energies(exemplar, pyramid), after = band_energies(image, pyramid);
-  for (std::size_t b = 0; b + 1 < before.size(); ++b)
-    EXPECT_NEAR(after[b] / before[b], 1, 0.1) << "band " << b;
+  const auto wanted = band_energies(exemplar, pyramid);
+  const auto off = [&](int iterations) {  // share of the energy that sits in the wrong band
+    PyramidParams params;
+    params.iterations = iterations;
+    const auto got = band_energies(
+        synthesise(params, exemplar, Target{{128, 128}}, Random(2), Control{}).image, pyramid);
+    double sum = 0, total = 0;
+    for (std::size_t b = 0; b + 1 < got.size(); ++b) {  // the low-pass is mostly the mean
+      sum += std::abs(got[b] - wanted[b]);
+      total += wanted[b];
+    }
+    return sum / total;
+  };
+  const double once = off(1), few = off(5), many = off(20);
+  EXPECT_LT(few, once / 3);
+  EXPECT_LT(few, 0.1);
+  EXPECT_LT(many, few / 2);
 }
 
 TEST(Pyramid, ColoursStayCorrelated) {
