@@ -34,13 +34,19 @@ std::vector<Offset> context_offsets(const MarkovParams& params) {
   return offsets;
 }
 
-/// The context and its mirror image, nearest first.
-std::vector<Offset> both_sides(const std::vector<Offset>& offsets) {
+/// The context and its mirror image, nearest first; of equally near ones those across the seam.
+std::vector<Offset> both_sides(const std::vector<Offset>& offsets, bool seam_is_vertical) {
   std::vector<Offset> both;
   for (const Offset o : offsets) {
     both.push_back(o);
     both.push_back({-o.x, -o.y});
   }
+  const auto distance = [&](Offset o) {
+    const int across = std::abs(seam_is_vertical ? o.x : o.y);
+    return 100 * (o.x * o.x + o.y * o.y) - across;
+  };
+  std::stable_sort(both.begin(), both.end(),
+                   [&](Offset a, Offset b) { return distance(a) < distance(b); });
   return both;
 }
 
@@ -117,14 +123,18 @@ Texture synthesise(const MarkovParams& params, const Image& exemplar, const Targ
     control.step(y + 1, steps);
   }
   if (rounds > 0) {
-    const ContextTable around(symbols, exemplar.size(), both_sides(offsets));
+    const ContextTable around_x(symbols, exemplar.size(), both_sides(offsets, true));
+    const ContextTable around_y(symbols, exemplar.size(), both_sides(offsets, false));
     for (int round = 1; round <= rounds; ++round)
       for (int y = 0; y < size.height; ++y) {
         Random row = random.stream(static_cast<std::uint64_t>(1 + round))
                          .stream(static_cast<std::uint64_t>(y));
-        for (int x = 0; x < size.width; ++x)
-          if ((seam_x && near_an_end(x, size.width)) || (seam_y && near_an_end(y, size.height)))
-            canvas.draw(x, y, around, row);
+        for (int x = 0; x < size.width; ++x) {
+          if (seam_y && near_an_end(y, size.height))
+            canvas.draw(x, y, around_y, row);
+          else if (seam_x && near_an_end(x, size.width))
+            canvas.draw(x, y, around_x, row);
+        }
         control.step(std::int64_t{round} * size.height + y + 1, steps);
       }
   }
