@@ -154,7 +154,7 @@ Cost estimate(const MarkovParams& params, Size exemplar, int channels, const Tar
       static_cast<double>(target.size.width + margin) * (target.size.height + margin);
   return {4 * channels * (in + out) + in * (9 + 3 * params.order) + 4 * out,
           in * (1e-8 * params.order + 1e-9 * params.colours * channels) +
-              out * 1e-7 * (1 + params.order)};
+              out * 4e-8 * (1 + params.order)};
 }
 
 }  // namespace gramloom

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <functional>
 #include <numbers>
 #include <vector>
@@ -14,8 +13,6 @@
 namespace gramloom {
 
 namespace {
-
-using Complex = std::complex<float>;
 
 /// Unit numbers exp(iθ), θ uniform, for columns 0 to width/2 of a spectrum. A real image asks for
 /// θ(−k) = −θ(k), which within these columns concerns the two that mirror themselves; where k and
@@ -51,27 +48,23 @@ void add_phases(cv::Mat& coefficients, const cv::Mat& phases) {
   for (int y = 0; y < phases.rows; ++y) {
     auto* out = coefficients.ptr<Complex>(y);
     const auto* phase = phases.ptr<Complex>(y);
-    for (int x = 0; x < phases.cols; ++x) {
-      const float re = out[x].real() * phase[x].real() - out[x].imag() * phase[x].imag();
-      const float im = out[x].real() * phase[x].imag() + out[x].imag() * phase[x].real();
-      out[x] = {re, im};
-    }
+    for (int x = 0; x < phases.cols; ++x) out[x] = times(out[x], phase[x]);
   }
 }
 
-/// The weights of an axis of the spot: 1 where the period is no longer than what is analysed,
-/// else fading at both ends; scaled so that a spot keeps the exemplar's variance over the period.
-std::vector<float> spot_weights(const AxisPlan& axis, double fade) {
-  std::vector<double> weights(static_cast<std::size_t>(axis.analysed), 1.0);
+/// The weights of an axis of the spot: 1 where the period is no longer than the exemplar, else
+/// fading at both ends; scaled so that a spot keeps the exemplar's variance over the period.
+std::vector<float> spot_weights(int exemplar, int period, double fade) {
+  std::vector<double> weights(static_cast<std::size_t>(exemplar), 1.0);
   double energy = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    const double place = (static_cast<double>(i) + 0.5) / axis.analysed;
+    const double place = (static_cast<double>(i) + 0.5) / exemplar;
     const double from_edge = std::min(place, 1 - place);
-    if (axis.period > axis.analysed && from_edge < fade)
+    if (period > exemplar && from_edge < fade)
       weights[i] = 0.5 - 0.5 * std::cos(std::numbers::pi * from_edge / fade);
     energy += weights[i] * weights[i];
   }
-  const double scale = std::sqrt(axis.period / energy);
+  const double scale = std::sqrt(period / energy);
   std::vector<float> scaled;
   for (const double w : weights) scaled.push_back(static_cast<float>(scale * w));
   return scaled;
@@ -79,20 +72,20 @@ std::vector<float> spot_weights(const AxisPlan& axis, double fade) {
 
 /// Spectrum of the spot: the periodic component, less its mean, weighted, and laid into the period,
 /// around which it wraps if it is longer. The mean is put back at frequency 0.
-cv::Mat spot_coefficients(const cv::Mat& plane, const AxisPlan& across, const AxisPlan& down,
-                          double fade) {
+cv::Mat spot_coefficients(const cv::Mat& plane, Size period, double fade) {
   cv::Mat periodic = periodic_coefficients(plane);
-  if (across.period == across.analysed && down.period == down.analysed) return periodic;
+  if (period == Size{plane.cols, plane.rows}) return periodic;
   const Complex mean = periodic.at<Complex>(0, 0);
   periodic.at<Complex>(0, 0) = 0;
   const cv::Mat centred = from_fourier_coefficients(periodic);
-  const auto weight_x = spot_weights(across, fade), weight_y = spot_weights(down, fade);
-  cv::Mat spot = cv::Mat::zeros(down.period, across.period, CV_32F);
+  const auto weight_x = spot_weights(plane.cols, period.width, fade);
+  const auto weight_y = spot_weights(plane.rows, period.height, fade);
+  cv::Mat spot = cv::Mat::zeros(period.height, period.width, CV_32F);
   for (int y = 0; y < centred.rows; ++y)
     for (int x = 0; x < centred.cols; ++x)
-      spot.at<float>(y % down.period, x % across.period) += centred.at<float>(y, x) *
-                                                            weight_x[static_cast<std::size_t>(x)] *
-                                                            weight_y[static_cast<std::size_t>(y)];
+      spot.at<float>(y % period.height, x % period.width) += centred.at<float>(y, x) *
+                                                             weight_x[static_cast<std::size_t>(x)] *
+                                                             weight_y[static_cast<std::size_t>(y)];
   cv::Mat coefficients = fourier_coefficients(spot);
   coefficients.at<Complex>(0, 0) = mean;
   return coefficients;
@@ -110,15 +103,14 @@ void for_each_channel(const Image& image, const std::function<void(int)>& body) 
 Texture synthesise(const PhaseParams& params, const Image& exemplar, const Target& target,
                    Random random, const Control& control) {
   check_input(exemplar, target);
-  const AxisPlan across = plan_axis(exemplar.width, target.size.width, tiles_x(target.tile));
-  const AxisPlan down = plan_axis(exemplar.height, target.size.height, tiles_y(target.tile));
+  const Size period{period_for(exemplar.width, target.size.width, tiles_x(target.tile)),
+                    period_for(exemplar.height, target.size.height, tiles_y(target.tile))};
   control.step(0, 2);
-  const cv::Mat phases = random_phases({across.period, down.period}, random);
+  const cv::Mat phases = random_phases(period, random);
   control.step(1, 2);
   Image result(target.size, exemplar.channels);
   for_each_channel(result, [&](int c) {
-    const cv::Mat plane = channel_plane(exemplar, c, {across.analysed, down.analysed});
-    cv::Mat coefficients = spot_coefficients(plane, across, down, params.fade);
+    cv::Mat coefficients = spot_coefficients(channel_plane(exemplar, c), period, params.fade);
     add_phases(coefficients, phases);
     set_channel(result, c, from_fourier_coefficients(coefficients));
   });
@@ -140,9 +132,8 @@ Cost estimate(const PhaseParams&, Size exemplar, int channels, const Target& tar
 Image periodic_component(const Image& image) {
   Image result(image.size(), image.channels);
   for_each_channel(result, [&](int c) {
-    set_channel(
-        result, c,
-        from_fourier_coefficients(periodic_coefficients(channel_plane(image, c, image.size()))));
+    set_channel(result, c,
+                from_fourier_coefficients(periodic_coefficients(channel_plane(image, c))));
   });
   return result;
 }
@@ -151,7 +142,7 @@ Image random_phase_noise(const Image& spot, Random random) {
   const cv::Mat phases = random_phases(spot.size(), random);
   Image result(spot.size(), spot.channels);
   for_each_channel(result, [&](int c) {
-    cv::Mat coefficients = fourier_coefficients(channel_plane(spot, c, spot.size()));
+    cv::Mat coefficients = fourier_coefficients(channel_plane(spot, c));
     add_phases(coefficients, phases);
     set_channel(result, c, from_fourier_coefficients(coefficients));
   });

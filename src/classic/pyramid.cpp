@@ -86,14 +86,13 @@ int usable_levels(int wanted, Size a, Size b) {
 Texture synthesise(const PyramidParams& params, const Image& exemplar, const Target& target,
                    Random random, const Control& control) {
   check_input(exemplar, target);
-  const AxisPlan across = plan_axis(exemplar.width, target.size.width, tiles_x(target.tile));
-  const AxisPlan down = plan_axis(exemplar.height, target.size.height, tiles_y(target.tile));
-  const Size analysed{across.analysed, down.analysed}, period{across.period, down.period};
+  const Size period{period_for(exemplar.width, target.size.width, tiles_x(target.tile)),
+                    period_for(exemplar.height, target.size.height, tiles_y(target.tile))};
   const std::int64_t steps = std::int64_t{exemplar.channels} * params.iterations;
   control.step(0, steps);
 
-  const int levels = usable_levels(params.levels, analysed, period);
-  const auto from = steerable_pyramid(analysed, levels, params.orientations);
+  const int levels = usable_levels(params.levels, exemplar.size(), period);
+  const auto from = steerable_pyramid(exemplar.size(), levels, params.orientations);
   const auto to = steerable_pyramid(period, levels, params.orientations);
   const ColourPca pca = colour_pca(exemplar);
   const Image axes = whitened(exemplar, pca);
@@ -103,7 +102,7 @@ Texture synthesise(const PyramidParams& params, const Image& exemplar, const Tar
     cv::Mat plane;
     Histograms histograms;
     if (!flat) {
-      histograms = analyse(channel_plane(axes, c, analysed), from);
+      histograms = analyse(channel_plane(axes, c), from);
       plane = white_noise(period, random.stream(static_cast<std::uint64_t>(c)));
       match_values(values_of(plane), histograms.pixels);
     }

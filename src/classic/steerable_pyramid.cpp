@@ -12,7 +12,6 @@ namespace gramloom {
 
 namespace {
 
-using Complex = std::complex<float>;
 using std::numbers::pi;
 
 double low(double r, double cutoff) {
@@ -44,16 +43,14 @@ double power(double base, int exponent) {
 int frequency(int row, int length) { return row <= length / 2 ? row : row - length; }
 int row_of(int frequency, int length) { return frequency < 0 ? frequency + length : frequency; }
 
-/// Side of level s's grid: all of its frequencies, below length/2ˢ⁺¹, and a fast transform.
+/// A fast length for samples of frequencies below length/2ˢ⁺¹.
 int grid_side(int length, int level) {
-  if (level == 0) return length;
-  const int least = (length + (1 << level) - 1) >> level;
-  return std::min(length, fast_length_up(least));
+  return fast_length_up((length + (1 << level) - 1) >> level);
 }
 
-PyramidBand make_band(Size size, int level, Complex phase,
+PyramidBand make_band(Size size, Size grid, Complex phase,
                       const std::function<double(double r, double angle)>& gain) {
-  PyramidBand band{{grid_side(size.width, level), grid_side(size.height, level)}, {}, phase};
+  PyramidBand band{grid, {}, phase};
   band.gain.create(band.grid.height, band.grid.width / 2 + 1, CV_32F);
   for (int y = 0; y < band.gain.rows; ++y)
     for (int x = 0; x < band.gain.cols; ++x) {
@@ -82,13 +79,14 @@ SteerablePyramid steerable_pyramid(Size size, int levels, int orientations) {
   pyramid.bands.resize(static_cast<std::size_t>(levels * orientations + 2));
   const int last = levels * orientations + 1;
   const auto make = [&](int index) {
-    if (index == 0) return make_band(size, 0, 1, [](double r, double) { return high(r, pi); });
+    if (index == 0) return make_band(size, size, 1, [](double r, double) { return high(r, pi); });
     const int level = (index - 1) / orientations;
+    const Size grid{grid_side(size.width, level), grid_side(size.height, level)};
     const double cutoff = pi / std::exp2(level);
     if (index == last)
-      return make_band(size, level, 1, [&](double r, double) { return low(r, cutoff); });
+      return make_band(size, grid, 1, [&](double r, double) { return low(r, cutoff); });
     const double axis = pi * ((index - 1) % orientations) / orientations;
-    return make_band(size, level, phase, [&](double r, double angle) {
+    return make_band(size, grid, phase, [&](double r, double angle) {
       const double radial = low(r, cutoff) * high(r, cutoff / 2);
       return radial > 0 ? radial * scale * power(std::cos(angle - axis), orientations - 1) : 0;
     });
@@ -106,10 +104,7 @@ cv::Mat band_of(const cv::Mat& coefficients, const PyramidBand& band) {
     const auto* in = coefficients.ptr<Complex>(image_row);
     const auto* gain = band.gain.ptr<float>(y);
     auto* out = filtered.ptr<Complex>(y);
-    const float re = band.phase.real(), im = band.phase.imag();
-    for (int x = 0; x < band.gain.cols; ++x)
-      out[x] = {gain[x] * (in[x].real() * re - in[x].imag() * im),
-                gain[x] * (in[x].real() * im + in[x].imag() * re)};
+    for (int x = 0; x < band.gain.cols; ++x) out[x] = gain[x] * times(in[x], band.phase);
   });
   return from_fourier_coefficients(filtered);
 }
@@ -119,10 +114,8 @@ void add_band(cv::Mat& coefficients, const cv::Mat& band_coefficients, const Pyr
     const auto* in = band_coefficients.ptr<Complex>(y);
     const auto* gain = band.gain.ptr<float>(y);
     auto* out = coefficients.ptr<Complex>(image_row);
-    const float re = band.phase.real(), im = -band.phase.imag();
     for (int x = 0; x < band.gain.cols; ++x)
-      out[x] += Complex(gain[x] * (in[x].real() * re - in[x].imag() * im),
-                        gain[x] * (in[x].real() * im + in[x].imag() * re));
+      out[x] += gain[x] * times(in[x], std::conj(band.phase));
   });
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <complex>
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "classic/fourier.h"
 #include "core/image.h"
 
 namespace gramloom {
@@ -17,13 +17,13 @@ namespace gramloom {
 /// Their squares add up to 1, so applying each filter a second time and adding up gives the image
 /// back. For this folder's own use.
 ///
-/// A departure that makes any size work: level s is sampled on any grid of at least 1/2ˢ of the
-/// side (the next fast length) rather than half of the previous one. Frequencies are those of the
-/// full image, so nothing is aliased, and odd sizes reconstruct as exactly as powers of two.
+/// A departure that makes any size work: level s is sampled on a grid of at least 1/2ˢ of the side
+/// (the next fast length) rather than half of the previous one. Frequencies are those of the full
+/// image, so nothing is aliased, and odd sizes reconstruct as exactly as powers of two.
 struct PyramidBand {
-  Size grid;                        // of its samples
-  cv::Mat gain;                     // CV_32F: of frequencies 0 to grid.width/2 by all rows
-  std::complex<float> phase{1, 0};  // makes the filter's response real
+  Size grid;            // of its samples
+  cv::Mat gain;         // CV_32F: of frequencies 0 to grid.width/2 by all rows
+  Complex phase{1, 0};  // makes the filter's response real
 };
 
 struct SteerablePyramid {

@@ -101,7 +101,7 @@ TYPED_TEST(Invariants, SizesLargerSmallerAndNotSquare) {
 }
 
 TYPED_TEST(Invariants, AnyNumberOfChannels) {
-  for (int channels = 1; channels <= 8; ++channels) {
+  for (const int channels : {1, 2, 3, 4, 5, 6, 7, 8, 64}) {
     const Image exemplar = grain({32, 32}, channels);
     this->expect_sound(this->make(exemplar, {40, 36}), exemplar, {40, 36});
   }

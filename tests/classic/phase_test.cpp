@@ -72,7 +72,7 @@ TEST_P(PhaseOfSize, AddsTheSamePhaseToEachChannel) {
 
 INSTANTIATE_TEST_SUITE_P(Sizes, PhaseOfSize,
                          testing::Values(Size{32, 24}, Size{31, 24}, Size{32, 25}, Size{27, 33},
-                                         Size{1, 16}, Size{16, 1}, Size{2, 2}));
+                                         Size{74, 37}, Size{1, 16}, Size{16, 1}, Size{2, 2}));
 
 TEST(Phase, SynthesisOfTheExemplarsSizeHasItsPeriodicComponentsSpectrum) {
   // Noise around ½ with one black and one white pixel: nothing reaches the ends of the range, so

@@ -32,7 +32,7 @@ TEST_P(SteerablePyramidOf, ReconstructsPerfectly) {
   const auto& [size, levels, orientations] = GetParam();
   const auto pyramid = steerable_pyramid(size, levels, orientations);
   ASSERT_EQ(pyramid.bands.size(), static_cast<std::size_t>(levels * orientations + 2));
-  const cv::Mat plane = channel_plane(noise(size, 1, 1), 0, size);
+  const cv::Mat plane = channel_plane(noise(size, 1, 1), 0);
   const cv::Mat coefficients = fourier_coefficients(plane);
   cv::Mat sum = cv::Mat::zeros(size.height, size.width, CV_32FC2);
   for (const auto& band : pyramid.bands) {
@@ -46,7 +46,7 @@ TEST_P(SteerablePyramidOf, ReconstructsPerfectly) {
 TEST_P(SteerablePyramidOf, KeepsEnergy) {
   // A tight frame: the bands' energies (mean squares) add up to the image's.
   const auto& [size, levels, orientations] = GetParam();
-  const cv::Mat plane = channel_plane(noise(size, 1, 2), 0, size);
+  const cv::Mat plane = channel_plane(noise(size, 1, 2), 0);
   const auto energy = [](const cv::Mat& m) { return m.dot(m) / static_cast<double>(m.total()); };
   double sum = 0;
   for (const auto& band : steerable_pyramid(size, levels, orientations).bands)
@@ -100,7 +100,7 @@ TEST(Pyramid, HistogramsEndEqual) {
 
 /// Mean squares of the bands of one channel.
 std::vector<double> band_energies(const Image& image, const SteerablePyramid& pyramid) {
-  const cv::Mat coefficients = periodic_coefficients(channel_plane(image, 0, image.size()));
+  const cv::Mat coefficients = periodic_coefficients(channel_plane(image, 0));
   std::vector<double> energies;
   for (const auto& band : pyramid.bands) {
     const cv::Mat samples = band_of(coefficients, band);
