@@ -62,7 +62,8 @@ PyramidBand make_band(Size size, Size grid, Complex phase,
   return band;
 }
 
-/// Calls f(row of the band, the image's row of the same frequency) for all that both have.
+/// Calls f(row of the band, the image's row of the same frequency). A band's grid may reach a
+/// little beyond the image's frequencies; its gain is 0 there.
 template <class F>
 void for_common_rows(const PyramidBand& band, int image_rows, const F& f) {
   for (int y = 0; y < band.grid.height; ++y)
@@ -75,7 +76,7 @@ SteerablePyramid steerable_pyramid(Size size, int levels, int orientations) {
   const double scale = angular_scale(orientations);
   // cosᴼ⁻¹ is odd when O is even: i makes its response real.
   const Complex phase = orientations % 2 == 0 ? Complex(0, 1) : Complex(1, 0);
-  SteerablePyramid pyramid{size, {}};
+  SteerablePyramid pyramid;
   pyramid.bands.resize(static_cast<std::size_t>(levels * orientations + 2));
   const int last = levels * orientations + 1;
   const auto make = [&](int index) {

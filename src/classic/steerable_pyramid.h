@@ -27,7 +27,6 @@ struct PyramidBand {
 };
 
 struct SteerablePyramid {
-  Size size;
   std::vector<PyramidBand> bands;  // high-pass, level 0's orientations, level 1's, …, low-pass
 };
 
