@@ -8,6 +8,8 @@
 #include <oneapi/dnnl/dnnl.hpp>
 #include <tuple>
 
+#include "neural/plane_gradient.h"
+
 namespace gramloom::neural {
 
 namespace {
@@ -22,8 +24,6 @@ dnnl::engine& engine() {
 memory::desc plain(memory::dims shape, memory::format_tag tag) {
   return {std::move(shape), memory::data_type::f32, tag};
 }
-
-memory::desc any(memory::dims shape) { return plain(std::move(shape), memory::format_tag::any); }
 
 memory::format_tag blocked() {
   return channel_block() == 16 ? memory::format_tag::nChw16c : memory::format_tag::nChw8c;
@@ -50,7 +50,7 @@ struct Shape {
 struct Plan {
   dnnl::convolution_forward forward;
   dnnl::convolution_backward_data backward;
-  memory::desc input, output, input_gradient;
+  memory::desc input, output;
   memory forward_weights, backward_weights;
   std::int64_t height, width;  // of the output
 };
@@ -79,19 +79,16 @@ struct ConvolutionState : torch::CustomClassHolder {
   }
 
   Plan make_plan(const Shape& shape, dnnl::algorithm algorithm) {
-    using dnnl::convolution_backward_data;
-    using dnnl::convolution_forward;
     const memory::dims stride{1, 1}, dilate{dilation - 1, dilation - 1};
     const memory::dims zeros{shape.zeros_y, shape.zeros_x};
     Plan plan;
     plan.height = shape.height + 2 * shape.zeros_y - span();
     plan.width = shape.width + 2 * shape.zeros_x - span();
     const memory::dims in{1, inputs(), shape.height, shape.width};
-    const memory::dims out{1, outputs(), plan.height, plan.width};
     plan.input = plain(in, shape.planes ? memory::format_tag::nchw : blocked());
-    plan.output = plain(out, blocked());
-    plan.input_gradient = plain(in, blocked());
-    const auto any_weights = any({outputs(), inputs(), weights.size(2), weights.size(3)});
+    plan.output = plain({1, outputs(), plan.height, plan.width}, blocked());
+    const auto any_weights =
+        plain({outputs(), inputs(), weights.size(2), weights.size(3)}, memory::format_tag::any);
     const auto any_bias =
         bias.defined() ? plain({outputs()}, memory::format_tag::x) : memory::desc();
 
@@ -101,22 +98,22 @@ struct ConvolutionState : torch::CustomClassHolder {
       operations.append_eltwise(1.0f, dnnl::algorithm::eltwise_relu, 0.0f, 0.0f);
       after.set_post_ops(operations);
     }
-    // Winograd reads and writes blocks only; few-channel pictures take the direct way in.
-    const auto forward_algorithm = shape.planes ? dnnl::algorithm::convolution_direct : algorithm;
-    const convolution_forward::primitive_desc forward(
-        {dnnl::prop_kind::forward_inference, forward_algorithm, plan.input, any_weights, any_bias,
+    const dnnl::convolution_forward::primitive_desc forward(
+        {dnnl::prop_kind::forward_inference, algorithm, plan.input, any_weights, any_bias,
          plan.output, stride, dilate, zeros, zeros},
         after, engine());
-    const convolution_forward::primitive_desc hint(
-        {dnnl::prop_kind::forward_training, algorithm, plan.input_gradient, any_weights,
-         plan.output, stride, dilate, zeros, zeros},
-        engine());
-    const convolution_backward_data::primitive_desc backward(
-        {algorithm, plan.input_gradient, any_weights, plan.output, stride, dilate, zeros, zeros},
-        engine(), hint);
-    plan.forward = convolution_forward(forward);
-    plan.backward = convolution_backward_data(backward);
+    plan.forward = dnnl::convolution_forward(forward);
     plan.forward_weights = arranged(forward.weights_desc());
+    if (shape.planes) return plan;  // whose gradient is plane_gradient()
+
+    const dnnl::convolution_forward::primitive_desc hint(
+        {dnnl::prop_kind::forward_training, algorithm, plan.input, any_weights, plan.output, stride,
+         dilate, zeros, zeros},
+        engine());
+    const dnnl::convolution_backward_data::primitive_desc backward(
+        {algorithm, plan.input, any_weights, plan.output, stride, dilate, zeros, zeros}, engine(),
+        hint);
+    plan.backward = dnnl::convolution_backward_data(backward);
     plan.backward_weights = arranged(backward.weights_desc());
     return plan;
   }
@@ -124,7 +121,9 @@ struct ConvolutionState : torch::CustomClassHolder {
   const Plan& plan(const Shape& shape) {
     if (const auto found = plans.find(shape); found != plans.end()) return found->second;
     try {
-      return plans[shape] = make_plan(shape, dnnl::algorithm::convolution_winograd);
+      // Winograd reads and writes blocks only; few-channel pictures take the direct way in.
+      return plans[shape] = make_plan(shape, shape.planes ? dnnl::algorithm::convolution_direct
+                                                          : dnnl::algorithm::convolution_winograd);
     } catch (const dnnl::error&) {  // not for this kernel or processor
       return plans[shape] = make_plan(shape, dnnl::algorithm::convolution_direct);
     }
@@ -168,22 +167,24 @@ struct ConvolutionFunction : torch::autograd::Function<ConvolutionFunction> {
     at::Tensor upstream = gradients[0].contiguous();
     if (shape.relu)
       upstream = at::threshold_backward(upstream, context->get_saved_variables()[0], 0);
+    if (shape.planes)
+      return {plane_gradient(upstream, state->weights, state->dilation), {}, {}, {}, {}};
     const std::int64_t block = channel_block();
     at::Tensor result =
         at::empty({(state->inputs() + block - 1) / block, shape.height, shape.width, block},
                   upstream.options());
     execute(plan.backward, {{DNNL_ARG_DIFF_DST, view(plan.output, upstream)},
                             {DNNL_ARG_WEIGHTS, plan.backward_weights},
-                            {DNNL_ARG_DIFF_SRC, view(plan.input_gradient, result)}});
-    if (shape.planes) result = to_planes({result, state->inputs()});
+                            {DNNL_ARG_DIFF_SRC, view(plan.input, result)}});
     return {result, {}, {}, {}, {}};
   }
 };
 
-at::Tensor convolve_in_double(const ConvolutionState& state, const at::Tensor& planes,
-                              std::int64_t zeros_y, std::int64_t zeros_x, bool relu) {
-  const at::Tensor result = at::conv2d(planes.unsqueeze(0), state.weights, state.bias, 1,
-                                       {zeros_y, zeros_x}, state.dilation)
+at::Tensor convolve_in_double(const ConvolutionState& state, const at::Tensor& planes, bool relu) {
+  const std::vector<std::int64_t> stride{1, 1}, zeros{0, 0},
+      dilation{state.dilation, state.dilation};
+  const at::Tensor result = at::conv2d(planes.unsqueeze(0), state.weights, state.bias, stride,
+                                       at::IntArrayRef(zeros), dilation)
                                 .squeeze(0);
   return relu ? at::relu(result) : result;
 }
@@ -213,13 +214,9 @@ FeatureMaps Convolution::operator()(const FeatureMaps& maps, Edges edges, bool r
 }
 
 FeatureMaps Convolution::operator()(const at::Tensor& planes, Edges edges, bool relu) const {
-  const std::int64_t zeros_y = edges.y == Padding::zero ? radius() : 0;
-  const std::int64_t zeros_x = edges.x == Padding::zero ? radius() : 0;
-  const Edges before{zeros_x ? Padding::valid : edges.x, zeros_y ? Padding::valid : edges.y};
-  const at::Tensor padded = pad_planes(planes, radius(), before).contiguous();
-  if (planes.scalar_type() != at::kFloat)
-    return to_maps(convolve_in_double(*state_, padded, zeros_y, zeros_x, relu));
-  return {ConvolutionFunction::apply(padded, state_, zeros_y, zeros_x, relu), state_->outputs()};
+  const at::Tensor padded = pad_planes(planes, radius(), edges).contiguous();
+  if (planes.scalar_type() != at::kFloat) return to_maps(convolve_in_double(*state_, padded, relu));
+  return {ConvolutionFunction::apply(padded, state_, 0, 0, relu), state_->outputs()};
 }
 
 }  // namespace gramloom::neural

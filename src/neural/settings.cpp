@@ -9,7 +9,7 @@
 namespace gramloom::neural {
 
 std::vector<Loss::MatchedLayer> matched_layers(const NeuralParams& params,
-                                               const NetworkDescription& description) {
+                                               NetworkDescription& description) {
   const auto& names = params.layers.empty() ? description.matched : params.layers;
   if (!params.layer_weights.empty() && params.layer_weights.size() != names.size())
     throw ConfigError("layer_weights has {} values for {} layers ({})", params.layer_weights.size(),
@@ -23,6 +23,7 @@ std::vector<Loss::MatchedLayer> matched_layers(const NeuralParams& params,
   for (std::size_t i = 1; i < layers.size(); ++i)
     if (layers[i].index == layers[i - 1].index)
       throw ConfigError("layer '{}' is named twice", description.layers[layers[i].index].name);
+  description.layers.resize(layers.back().index + 1);
   return layers;
 }
 

@@ -7,10 +7,11 @@
 
 namespace gramloom::neural {
 
-/// The layers that `params` asks for with their weights, in the network's order. Throws
-/// ConfigError for an unknown layer, or weights that are not one for each layer.
+/// The layers that `params` asks for with their weights, in the network's order; `description`
+/// loses the layers above the last of them, which would be computed for nothing. Throws ConfigError
+/// for an unknown layer, or weights that are not one for each layer.
 std::vector<Loss::MatchedLayer> matched_layers(const NeuralParams& params,
-                                               const NetworkDescription& description);
+                                               NetworkDescription& description);
 
 /// The network with its weights, random or from a file, for pictures of `channels` channels.
 /// Throws ConfigError when trained weights are for another number of channels.
