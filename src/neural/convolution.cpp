@@ -99,7 +99,7 @@ struct ConvolutionState : torch::CustomClassHolder {
       after.set_post_ops(operations);
     }
     const dnnl::convolution_forward::primitive_desc forward(
-        {dnnl::prop_kind::forward_inference, algorithm, plan.input, any_weights, any_bias,
+        {dnnl::prop_kind::forward_training, algorithm, plan.input, any_weights, any_bias,
          plan.output, stride, dilate, zeros, zeros},
         after, engine());
     plan.forward = dnnl::convolution_forward(forward);

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/random.h"
-
 namespace gramloom::neural {
 
 namespace {
@@ -42,100 +40,102 @@ void crop_to_smallest(std::vector<FeatureMaps>& parts) {
 
 }  // namespace
 
-Network::Network(const NetworkDescription& description, std::vector<FilterShape> shapes,
+Network::Network(const NetworkDescription& description, const std::vector<FilterShape>& shapes,
                  std::vector<FilterWeights> weights, Pooling pooling)
-    : description_(description),
-      shapes_(std::move(shapes)),
-      weights_(std::move(weights)),
-      pooling_(pooling),
-      first_(description.layers.size(), 0) {
-  for (std::size_t i = shapes_.size(); i-- > 0;) first_[shapes_[i].layer] = i;
-  build();
+    : description_(description), pooling_(pooling), branches_(description.layers.size()) {
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    branches_[shapes[i].layer].push_back(
+        {Convolution(std::move(weights[i].weights), std::move(weights[i].bias), shapes[i].dilation),
+         shapes[i].blur});
 }
 
-void Network::build() {
-  convolutions_.clear();
-  for (std::size_t i = 0; i < shapes_.size(); ++i)
-    convolutions_.emplace_back(weights_[i].weights, weights_[i].bias, shapes_[i].dilation);
-}
-
-FeatureMaps Network::apply(std::size_t index, const at::Tensor& planes, const FeatureMaps& maps,
-                           Edges edges, bool relu) const {
-  const Layer& layer = description_.layers[index];
+FeatureMaps Network::filter(std::size_t index, const at::Tensor& picture, const FeatureMaps& maps,
+                            Edges edges, bool relu) const {
   const bool first = !maps.data.defined();  // nothing but the picture so far
-  const auto extent = [&](std::int64_t size, Padding padding, std::int64_t radius) {
-    return size - (padding == Padding::valid ? 2 * radius : 0);
+  const auto smallest = [](Padding padding, std::int64_t radius) {
+    return padding == Padding::valid ? 2 * radius + 1 : 1;
   };
-  const std::int64_t height = first ? planes.size(1) : maps.height();
-  const std::int64_t width = first ? planes.size(2) : maps.width();
-  const auto check = [&](std::int64_t h, std::int64_t w) {
-    if (h < 1 || w < 1)
-      throw Error(
-          "layer '{}' of network '{}' would be empty: a picture of {}×{} is too small for it",
-          layer.name, description_.name, planes.size(2), planes.size(1));
-  };
-
-  if (is<ConvolutionLayer>(layer) || is<BankLayer>(layer)) {
-    std::vector<FeatureMaps> parts;
-    const at::Tensor input = first ? planes : to_planes(maps);
-    for (std::size_t i = first_[index]; i < shapes_.size() && shapes_[i].layer == index; ++i) {
-      const auto& convolution = convolutions_[i];
-      check(extent(height, edges.y, convolution.radius()),
-            extent(width, edges.x, convolution.radius()));
-      if (first || shapes_[i].blur > 0)
-        parts.push_back(convolution(blur(input, shapes_[i].blur, edges), edges, relu));
-      else
-        parts.push_back(convolution(maps, edges, relu));
-    }
-    if (parts.size() == 1) return parts[0];
-    crop_to_smallest(parts);
-    return concatenate(parts);
+  std::vector<FeatureMaps> parts;
+  for (const auto& [convolution, blur_deviation] : branches_[index]) {
+    check_size(index, first ? picture.size(1) : maps.height(),
+               first ? picture.size(2) : maps.width(), smallest(edges.y, convolution.radius()),
+               smallest(edges.x, convolution.radius()), picture);
+    if (first || blur_deviation > 0)
+      parts.push_back(
+          convolution(blur(first ? picture : to_planes(maps), blur_deviation, edges), edges, relu));
+    else
+      parts.push_back(convolution(maps, edges, relu));
   }
-  const FeatureMaps& input = first ? to_maps(planes) : maps;
+  if (parts.size() == 1) return parts[0];
+  crop_to_smallest(parts);
+  return concatenate(parts);
+}
+
+FeatureMaps Network::apply(std::size_t index, const at::Tensor& picture, const FeatureMaps& maps,
+                           Edges edges, bool relu) const {
+  if (!branches_[index].empty()) return filter(index, picture, maps, edges, relu);
+  const FeatureMaps input = maps.data.defined() ? maps : to_maps(picture);
+  const Layer& layer = description_.layers[index];
   if (is<ReluLayer>(layer)) return {at::relu(input.data), input.channels};
-  check(height / 2, width / 2);
+  check_size(index, input.height(), input.width(), 2, 2, picture);
   const bool average = pooling_ == Pooling::average ||
                        (pooling_ == Pooling::as_described && is<AveragePoolLayer>(layer));
   return pool(input, average ? PoolKind::average : PoolKind::max);
 }
 
-std::vector<FeatureMaps> Network::operator()(const at::Tensor& planes, Edges edges,
+void Network::check_size(std::size_t layer, std::int64_t height, std::int64_t width,
+                         std::int64_t least_height, std::int64_t least_width,
+                         const at::Tensor& picture) const {
+  if (height >= least_height && width >= least_width) return;
+  throw Error("layer '{}' of network '{}' would be empty: a picture of {}×{} is too small for it",
+              description_.layers[layer].name, description_.name, picture.size(2), picture.size(1));
+}
+
+std::vector<FeatureMaps> Network::operator()(const at::Tensor& picture, Edges edges,
                                              const std::vector<std::size_t>& wanted) const {
   std::vector<FeatureMaps> result;
   FeatureMaps maps;
   for (std::size_t i = 0; result.size() < wanted.size(); ++i) {
-    const bool asked_for = wanted[result.size()] == i;
-    const bool filters =
-        is<ConvolutionLayer>(description_.layers[i]) || is<BankLayer>(description_.layers[i]);
-    const bool fuse = filters && !asked_for && i + 1 < description_.layers.size() &&
+    const bool fuse = !branches_[i].empty() && wanted[result.size()] != i &&
+                      i + 1 < description_.layers.size() &&
                       is<ReluLayer>(description_.layers[i + 1]);
-    maps = apply(i, planes, maps, edges, fuse);
+    maps = apply(i, picture, maps, edges, fuse);
     if (fuse) ++i;
     if (wanted[result.size()] == i) result.push_back(maps);
   }
   return result;
 }
 
-void Network::rescale(const at::Tensor& planes, Edges edges) {
+Network Network::rescaled(const NetworkDescription& description,
+                          const std::vector<FilterShape>& shapes,
+                          std::vector<FilterWeights> weights, Pooling pooling,
+                          const at::Tensor& picture, Edges edges) {
   const at::NoGradGuard no_gradients;
   FeatureMaps maps;
-  for (std::size_t layer = 0; layer < description_.layers.size(); ++layer) {
-    maps = apply(layer, planes, maps, edges, false);
-    if (!is<ConvolutionLayer>(description_.layers[layer]) &&
-        !is<BankLayer>(description_.layers[layer]))
-      continue;
+  for (std::size_t layer = 0, i = 0; layer < description.layers.size(); ++layer) {
+    // One layer at a time is a network of its own, so that no more than one is in memory twice.
+    std::vector<FilterShape> own;
+    std::vector<FilterWeights> filters;
+    const std::size_t first = i;
+    for (; i < shapes.size() && shapes[i].layer == layer; ++i) {
+      own.push_back(shapes[i]);
+      filters.push_back(weights[i]);
+    }
+    const Network network(description, own, filters, pooling);
+    maps = network.apply(layer, picture, maps, edges, false);
+    if (own.empty()) continue;
     const at::Tensor mean = to_rows({at::relu(maps.data), maps.channels}).mean(0);
     const at::Tensor factor = at::where(mean > 1e-12, 1 / mean, at::ones_like(mean));
     std::int64_t channel = 0;
-    for (std::size_t i = first_[layer]; i < shapes_.size() && shapes_[i].layer == layer; ++i) {
-      const at::Tensor part = factor.narrow(0, channel, shapes_[i].outputs);
-      weights_[i].weights = weights_[i].weights * part.view({-1, 1, 1, 1});
-      if (weights_[i].bias.defined()) weights_[i].bias = weights_[i].bias * part;
-      channel += shapes_[i].outputs;
+    for (std::size_t k = first; k < i; ++k) {
+      const at::Tensor part = factor.narrow(0, channel, shapes[k].outputs);
+      weights[k].weights = weights[k].weights * part.view({-1, 1, 1, 1});
+      if (weights[k].bias.defined()) weights[k].bias = weights[k].bias * part;
+      channel += shapes[k].outputs;
     }
     maps = to_maps(to_planes(maps) * factor.view({-1, 1, 1}));
   }
-  build();
+  return {description, shapes, std::move(weights), pooling};
 }
 
 }  // namespace gramloom::neural

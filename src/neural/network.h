@@ -27,30 +27,41 @@ std::vector<FilterWeights> load_filters(const NetworkDescription& description,
 /// A network ready to look at pictures.
 class Network {
  public:
-  Network(const NetworkDescription& description, std::vector<FilterShape> shapes,
+  Network(const NetworkDescription& description, const std::vector<FilterShape>& shapes,
           std::vector<FilterWeights> weights, Pooling pooling);
+
+  /// The same with each filter scaled so that its mean activation after ReLU on the picture
+  /// (channels, height, width) is 1, from the first layer to the last (the normalised network of
+  /// Gatys, Ecker, Bethge 2015, section 2). Filters that the picture never excites stay as they
+  /// are.
+  static Network rescaled(const NetworkDescription& description,
+                          const std::vector<FilterShape>& shapes,
+                          std::vector<FilterWeights> weights, Pooling pooling,
+                          const at::Tensor& picture, Edges edges);
 
   /// The feature maps of the layers at `wanted` (ascending indices), of one picture
   /// (channels, height, width). Throws Error when a layer would be empty.
-  std::vector<FeatureMaps> operator()(const at::Tensor& planes, Edges edges,
+  std::vector<FeatureMaps> operator()(const at::Tensor& picture, Edges edges,
                                       const std::vector<std::size_t>& wanted) const;
 
-  /// Scales each filter so that its mean activation after ReLU on the picture is 1, from the first
-  /// layer to the last (the normalised network of Gatys, Ecker, Bethge 2015, section 2). Filters
-  /// that the picture never excites stay as they are.
-  void rescale(const at::Tensor& planes, Edges edges);
-
  private:
-  FeatureMaps apply(std::size_t layer, const at::Tensor& planes, const FeatureMaps& maps,
+  struct Branch {  // of a layer with filters
+    Convolution convolution;
+    double blur;
+  };
+
+  FeatureMaps apply(std::size_t layer, const at::Tensor& picture, const FeatureMaps& maps,
                     Edges edges, bool relu) const;
-  void build();
+  FeatureMaps filter(std::size_t layer, const at::Tensor& picture, const FeatureMaps& maps,
+                     Edges edges, bool relu) const;
+
+  void check_size(std::size_t layer, std::int64_t height, std::int64_t width,
+                  std::int64_t least_height, std::int64_t least_width,
+                  const at::Tensor& picture) const;
 
   NetworkDescription description_;
-  std::vector<FilterShape> shapes_;
-  std::vector<FilterWeights> weights_;
   Pooling pooling_;
-  std::vector<Convolution> convolutions_;  // one for each of shapes_
-  std::vector<std::size_t> first_;         // by layer: index of its first filter bank
+  std::vector<std::vector<Branch>> branches_;  // by layer
 };
 
 }  // namespace gramloom::neural

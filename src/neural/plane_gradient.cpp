@@ -30,8 +30,7 @@ void add_rows(const at::Tensor& upstream, const at::Tensor& by_tap, std::int64_t
     for (std::int64_t ky = 0; ky < kernel; ++ky)
       for (std::int64_t kx = 0; kx < kernel; ++kx)
         for (std::int64_t row = 0; row < rows; ++row, tap += width)
-          accumulate(target + i * plane + (row + ky * dilation) * line + kx * dilation, tap,
-                     width);
+          accumulate(target + i * plane + (row + ky * dilation) * line + kx * dilation, tap, width);
 }
 
 }  // namespace

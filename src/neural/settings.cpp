@@ -28,13 +28,16 @@ std::vector<Loss::MatchedLayer> matched_layers(const NeuralParams& params,
 }
 
 Network make_network(const NeuralParams& params, const NetworkDescription& description,
-                     int channels) {
+                     const at::Tensor& exemplar) {
+  const int channels = static_cast<int>(exemplar.size(0));
   const auto shapes = filter_shapes(description, channels);
-  if (params.weights.empty())
-    return {description, shapes,
-            random_filters(shapes, params.random_weights,
-                           static_cast<std::uint64_t>(params.weights_seed)),
-            params.pooling};
+  if (params.weights.empty()) {
+    auto filters = random_filters(shapes, params.random_weights,
+                                  static_cast<std::uint64_t>(params.weights_seed));
+    if (!params.rescale) return {description, shapes, std::move(filters), params.pooling};
+    return Network::rescaled(description, shapes, std::move(filters), params.pooling, exemplar,
+                             {params.exemplar_padding, params.exemplar_padding});
+  }
   if (!description.input_mean.empty() &&
       description.input_mean.size() != static_cast<std::size_t>(channels))
     throw Error("{}: trained weights of '{}' look at {} channels, the exemplar has {}",

@@ -13,10 +13,11 @@ namespace gramloom::neural {
 std::vector<Loss::MatchedLayer> matched_layers(const NeuralParams& params,
                                                NetworkDescription& description);
 
-/// The network with its weights, random or from a file, for pictures of `channels` channels.
-/// Throws ConfigError when trained weights are for another number of channels.
+/// The network with its weights, random (rescaled on the exemplar where asked for) or from a file.
+/// exemplar: (channels, height, width), as the network sees it. Throws Error when trained weights
+/// are for another number of channels.
 Network make_network(const NeuralParams& params, const NetworkDescription& description,
-                     int channels);
+                     const at::Tensor& exemplar);
 
 /// A hash of everything that the result depends on, for checkpoints.
 std::string fingerprint(const NeuralParams& params, const Image& exemplar, const Target& target,

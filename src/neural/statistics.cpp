@@ -6,29 +6,39 @@ namespace gramloom::neural {
 
 namespace {
 
+// Keeps the maps, which the network keeps anyway, and not their copy in rows.
 struct MomentsFunction : torch::autograd::Function<MomentsFunction> {
-  // rows: (positions, channels)
   static torch::autograd::variable_list forward(torch::autograd::AutogradContext* context,
-                                                const at::Tensor& rows) {
-    context->save_for_backward({rows});
+                                                const at::Tensor& data, std::int64_t channels) {
+    context->save_for_backward({data});
+    context->saved_data["channels"] = channels;
+    const at::Tensor rows = to_rows({data, channels}).contiguous();
     const auto positions = static_cast<double>(rows.size(0));
     return {at::mm(rows.t(), rows).div_(positions), rows.mean(0)};
   }
 
   static torch::autograd::variable_list backward(torch::autograd::AutogradContext* context,
                                                  torch::autograd::variable_list gradients) {
-    const at::Tensor rows = context->get_saved_variables()[0];
+    const at::Tensor data = context->get_saved_variables()[0];
+    const auto channels = context->saved_data["channels"].toInt();
+    const at::Tensor rows = to_rows({data, channels}).contiguous();
     const auto positions = static_cast<double>(rows.size(0));
     const at::Tensor& of_gram = gradients[0];
-    const at::Tensor of_mean = gradients[1].unsqueeze(0).expand_as(rows);
-    return {at::addmm(of_mean, rows, of_gram + of_gram.t(), 1 / positions, 1 / positions)};
+    const at::Tensor of_rows =
+        at::addmm(gradients[1], rows, of_gram + of_gram.t(), 1 / positions, 1 / positions);
+    // Back into blocks: the transpose of to_rows().
+    at::Tensor blocks = at::constant_pad_nd(of_rows, {0, data.size(0) * data.size(3) - channels});
+    return {blocks.view({data.size(1), data.size(2), data.size(0), data.size(3)})
+                .permute({2, 0, 1, 3})
+                .contiguous(),
+            at::Tensor()};
   }
 };
 
 }  // namespace
 
 Moments moments(const FeatureMaps& maps) {
-  auto result = MomentsFunction::apply(to_rows(maps).contiguous());
+  auto result = MomentsFunction::apply(maps.data, maps.channels);
   return {result[0], result[1]};
 }
 

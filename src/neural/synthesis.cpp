@@ -76,9 +76,8 @@ class Synthesis {
         layers_(matched_layers(params, description_)),
         colours_(network_colours(params, description_, exemplar)),
         exemplar_(to_planes(whitened(exemplar, colours_))),
-        network_(make_network(params, description_, exemplar.channels)),
+        network_(make_network(params, description_, exemplar_)),
         start_(Clock::now()) {
-    if (params.weights.empty() && params.rescale) network_.rescale(exemplar_, exemplar_edges());
     state_.fingerprint = fingerprint(params, exemplar, target, random);
   }
 

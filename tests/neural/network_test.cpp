@@ -133,10 +133,10 @@ TEST(Network, APictureTooSmallIsNamed) {
 TEST(Network, RescaledFiltersHaveMeanActivationOne) {
   const NetworkDescription vgg = read_network(find_network("vgg_small"));
   const auto shapes = filter_shapes(vgg, 3);
-  Network network(vgg, shapes, random_filters(shapes, RandomWeights::he_normal, 1),
-                  Pooling::as_described);
   const at::Tensor picture = numbers({3, 64, 64}, 3);
-  network.rescale(picture, wrap);
+  const Network network =
+      Network::rescaled(vgg, shapes, random_filters(shapes, RandomWeights::he_normal, 1),
+                        Pooling::as_described, picture, wrap);
   for (const char* layer : {"relu1_1", "relu2_2", "relu4_2"}) {
     const at::Tensor means =
         to_planes(network(picture, wrap, {find_layer(vgg, layer)})[0]).mean({1, 2});
