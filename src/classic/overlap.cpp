@@ -12,6 +12,10 @@ namespace {
 /// Output lines that are transformed back together: they stay in the first cache.
 constexpr int block_lines = 32;
 
+/// Frequencies are padded to a multiple of this with zeros.
+constexpr int lanes = 16;
+using Lanes __attribute__((vector_size(lanes * sizeof(float)), aligned(4), may_alias)) = float;
+
 std::size_t to_size(int value) { return static_cast<std::size_t>(value); }
 
 Image transposed_image(const Image& image) {
@@ -22,35 +26,45 @@ Image transposed_image(const Image& image) {
   return result;
 }
 
-/// sum += a · conj(b) over `count` frequencies; real parts first, then imaginary ones.
-GRAMLOOM_SIMD void add_product(const float* __restrict a, const float* __restrict b,
-                               float* __restrict sum, int count) {
-  for (int f = 0; f < count; ++f) {
-    const float ar = a[f], ai = a[count + f], br = b[f], bi = b[count + f];
-    sum[f] += ar * br + ai * bi;
-    sum[count + f] += ai * br - ar * bi;
-  }
+/// sum += Σ a · conj(b) over `terms` spectra that follow each other in `a` and in `b`, for `lines`
+/// sums of which each begins `a_step` values of `a` after the last. A spectrum has `count`
+/// frequencies, a multiple of `lanes`, real parts first, then imaginary ones. Frequency by
+/// frequency, so that what neighbouring lines share stays in the cache.
+GRAMLOOM_SIMD void add_products(const float* a, std::ptrdiff_t a_step, const float* b, int terms,
+                                float* sum, int lines, int count) {
+  const Lanes* bv = reinterpret_cast<const Lanes*>(b);
+  const int half = count / lanes;
+  for (int f = 0; f < half; ++f)
+    for (int line = 0; line < lines; ++line) {
+      const Lanes* av = reinterpret_cast<const Lanes*>(a + line * a_step);
+      Lanes* sums = reinterpret_cast<Lanes*>(sum + line * 2 * count);
+      Lanes re = sums[f], im = sums[half + f];
+      for (int i = f; i < f + 2 * half * terms; i += 2 * half) {
+        re += av[i] * bv[i] + av[half + i] * bv[half + i];
+        im += av[half + i] * bv[i] - av[i] * bv[half + i];
+      }
+      sums[f] = re;
+      sums[half + f] = im;
+    }
 }
 
 /// To and from OpenCV's packed spectrum of real values: Re 0, Re 1, Im 1, Re 2, Im 2, …
-void split(const float* packed, int length, float* parts) {
-  const int count = length / 2 + 1;
+void split(const float* packed, int length, float* parts, int count) {
   parts[0] = packed[0];
-  parts[count] = 0;
-  for (int f = 1; f < count; ++f) {
+  for (int f = 1; 2 * f <= length; ++f) {
     parts[f] = packed[2 * f - 1];
-    parts[count + f] = 2 * f < length ? packed[2 * f] : 0;
+    if (2 * f < length) parts[count + f] = packed[2 * f];
   }
 }
 
-GRAMLOOM_SIMD void pack(const float* __restrict parts, int length, float* __restrict packed) {
-  const int count = length / 2 + 1;
+GRAMLOOM_SIMD void pack(const float* __restrict parts, int count, int length,
+                        float* __restrict packed) {
   packed[0] = parts[0];
   for (int f = 1; 2 * f < length; ++f) {
     packed[2 * f - 1] = parts[f];
     packed[2 * f] = parts[count + f];
   }
-  if (length % 2 == 0) packed[length - 1] = parts[count - 1];
+  if (length % 2 == 0) packed[length - 1] = parts[length / 2];
 }
 
 GRAMLOOM_SIMD void subtract_twice(const float* __restrict from, float* __restrict errors,
@@ -73,9 +87,12 @@ GRAMLOOM_SIMD void energies(const double* const (&all)[4], const double* const (
 
 }  // namespace
 
+int OverlapErrors::Spectra::frequencies() const {
+  return (length / 2 + 1 + lanes - 1) / lanes * lanes;
+}
+
 const float* OverlapErrors::Spectra::at(int row, int channel) const {
-  return values.data() +
-         (to_size(row) * to_size(channels) + to_size(channel)) * to_size(2 * frequencies());
+  return values.ptr<float>(row) + channel * 2 * frequencies();
 }
 
 OverlapErrors::OverlapErrors(const Image& exemplar, Size patch)
@@ -85,7 +102,8 @@ OverlapErrors::OverlapErrors(const Image& exemplar, Size patch)
   const double pixels = static_cast<double>(exemplar.width) * exemplar.height;
   for (std::size_t c = 0; c < mean_.size(); ++c) {
     double sum = 0;
-    for (std::size_t i = c; i < exemplar.pixels.size(); i += mean_.size()) sum += exemplar.pixels[i];
+    for (std::size_t i = c; i < exemplar.pixels.size(); i += mean_.size())
+      sum += exemplar.pixels[i];
     mean_[c] = static_cast<float>(sum / pixels);
   }
   const Image values = centred(exemplar, {exemplar.width, 0, 0, 0});
@@ -106,8 +124,8 @@ OverlapErrors::OverlapErrors(const Image& exemplar, Size patch)
 }
 
 float OverlapErrors::noise(const Sides& sides) const {
-  const int inside = (patch_.width - sides.left - sides.right) *
-                     (patch_.height - sides.top - sides.bottom);
+  const int inside =
+      (patch_.width - sides.left - sides.right) * (patch_.height - sides.top - sides.bottom);
   return static_cast<float>(1e-5 * variance_ * (patch_.width * patch_.height - inside));
 }
 
@@ -132,8 +150,7 @@ void OverlapErrors::compute(const Image& patch, const Sides& sides,
 
 OverlapErrors::Spectra OverlapErrors::spectra_of_rows(const Image& image, int length) {
   Spectra result{length, image.channels, {}};
-  result.values.resize(to_size(image.height) * to_size(image.channels) *
-                       to_size(2 * result.frequencies()));
+  result.values = cv::Mat1f::zeros(image.height, image.channels * 2 * result.frequencies());
   cv::Mat lines(image.channels, length, CV_32F);
   for (int y = 0; y < image.height; ++y) {
     const float* row = image.at(0, y);
@@ -144,7 +161,8 @@ OverlapErrors::Spectra OverlapErrors::spectra_of_rows(const Image& image, int le
       for (int c = 0; c < image.channels; ++c) lines.at<float>(c, x) = image.at(x, y)[c];
     cv::dft(lines, lines, cv::DFT_ROWS);
     for (int c = 0; c < image.channels; ++c)
-      split(lines.ptr<float>(c), length, const_cast<float*>(result.at(y, c)));
+      split(lines.ptr<float>(c), length, result.values.ptr<float>(y) + c * 2 * result.frequencies(),
+            result.frequencies());
   }
   return result;
 }
@@ -189,19 +207,19 @@ void OverlapErrors::subtract_correlations(const Spectra& exemplar, const Image& 
   if (std::ranges::all_of(bands, [](Band b) { return b.first == b.last; })) return;
   const Spectra patch_spectra = spectra_of_rows(patch, exemplar.length);
   const int frequencies = exemplar.frequencies();
-  std::vector<float> sum(to_size(2 * frequencies));
+  const std::ptrdiff_t row_values = std::ptrdiff_t{2} * frequencies * patch.channels;
+  cv::Mat1f sums(block_lines, 2 * frequencies);
   cv::Mat block(block_lines, exemplar.length, CV_32F), lines, across;
   for (int first = 0; first < valid.height; first += block_lines) {
     const int count = std::min(block_lines, valid.height - first);
-    for (int line = 0; line < count; ++line) {
-      std::ranges::fill(sum, 0.0f);
-      for (const Band& band : bands)
-        for (int row = band.first; row < band.last; ++row)
-          for (int c = 0; c < patch.channels; ++c)
-            add_product(exemplar.at(first + line + row, c), patch_spectra.at(row, c), sum.data(),
-                        frequencies);
-      pack(sum.data(), exemplar.length, block.ptr<float>(line));
-    }
+    sums.setTo(0);
+    for (const Band& band : bands)
+      if (band.first < band.last)
+        add_products(exemplar.at(first + band.first, 0), row_values,
+                     patch_spectra.at(band.first, 0), (band.last - band.first) * patch.channels,
+                     sums.ptr<float>(), count, frequencies);
+    for (int line = 0; line < count; ++line)
+      pack(sums.ptr<float>(line), frequencies, exemplar.length, block.ptr<float>(line));
     lines = block.rowRange(0, count);
     cv::dft(lines, lines, cv::DFT_ROWS | cv::DFT_INVERSE | cv::DFT_REAL_OUTPUT | cv::DFT_SCALE);
     if (!transposed) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <opencv2/core.hpp>
 #include <vector>
 
 #include "core/image.h"
@@ -42,13 +43,13 @@ class OverlapErrors {
   void compute(const Image& patch, const Sides& sides, std::vector<float>& errors) const;
 
  private:
-  /// Spectra of an image's rows: [row][channel][real, imaginary][frequency].
+  /// Spectra of an image's rows: [row][channel][real, imaginary][frequency], 64 bytes aligned.
   struct Spectra {
     int length = 0;  // of the transform
     int channels = 0;
-    std::vector<float> values;
+    cv::Mat1f values;
 
-    int frequencies() const { return length / 2 + 1; }
+    int frequencies() const;
     const float* at(int row, int channel) const;
   };
   /// Rows of a patch that are filled.

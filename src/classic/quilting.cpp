@@ -59,7 +59,8 @@ GRAMLOOM_SIMD float smallest(const std::vector<float>& values) {
   std::fill_n(low, lanes, values[0]);
   std::size_t i = 0;
   for (; i + lanes <= values.size(); i += lanes)
-    for (std::size_t k = 0; k < lanes; ++k) low[k] = values[i + k] < low[k] ? values[i + k] : low[k];
+    for (std::size_t k = 0; k < lanes; ++k)
+      low[k] = values[i + k] < low[k] ? values[i + k] : low[k];
   for (; i < values.size(); ++i) low[0] = std::min(low[0], values[i]);
   return *std::min_element(low, low + lanes);
 }
@@ -117,8 +118,8 @@ void lay(Quilt& quilt, const PatchSlot& slot, Random random) {
   const Image old = under(quilt.canvas, left, top, patch);
   const Position position = choose(quilt, old, slot.sides, random);
   const Image fresh = under(quilt.exemplar, position.x, position.y, patch);
-  const std::vector<float> weights = feathered(cut_mask(old, fresh, slot.sides), patch, slot.sides,
-                                               quilt.params.feather);
+  const std::vector<float> weights =
+      feathered(cut_mask(old, fresh, slot.sides), patch, slot.sides, quilt.params.feather);
   std::size_t i = 0;
   for (int y = 0; y < patch.height; ++y)
     for (int x = 0; x < patch.width; ++x, ++i) {
@@ -126,10 +127,11 @@ void lay(Quilt& quilt, const PatchSlot& slot, Random random) {
           quilt.canvas.at((left + x) % quilt.canvas.width, (top + y) % quilt.canvas.height);
       const float *from = old.at(x, y), *to = fresh.at(x, y);
       for (int c = 0; c < old.channels; ++c)
-        pixel[c] = weights[i] >= 1   ? to[c]
-                   : weights[i] <= 0 ? from[c]
-                                     : std::clamp(from[c] + weights[i] * (to[c] - from[c]),
-                                                  std::min(from[c], to[c]), std::max(from[c], to[c]));
+        pixel[c] = weights[i] >= 1 ? to[c]
+                   : weights[i] <= 0
+                       ? from[c]
+                       : std::clamp(from[c] + weights[i] * (to[c] - from[c]),
+                                    std::min(from[c], to[c]), std::max(from[c], to[c]));
     }
 }
 
@@ -147,18 +149,22 @@ Texture synthesise(const QuiltingParams& params, const Image& exemplar, const Ta
   if (exemplar.empty()) throw Error("quilting needs an exemplar with at least one pixel");
   if (target.size.width < 1 || target.size.height < 1)
     throw Error("a texture of {}×{} pixels cannot be made", target.size.width, target.size.height);
-  const PatchAxis x =
-      cover_axis(params, exemplar.width, target.size.width, tiles_x(target.tile));
-  const PatchAxis y =
-      cover_axis(params, exemplar.height, target.size.height, tiles_y(target.tile));
-  Quilt quilt{params, exemplar, x, y, OverlapErrors(exemplar, {x.patch, y.patch}),
-              Image(target.size, exemplar.channels), {}};
+  const PatchAxis x = cover_axis(params, exemplar.width, target.size.width, tiles_x(target.tile));
+  const PatchAxis y = cover_axis(params, exemplar.height, target.size.height, tiles_y(target.tile));
+  Quilt quilt{params,
+              exemplar,
+              x,
+              y,
+              OverlapErrors(exemplar, {x.patch, y.patch}),
+              Image(target.size, exemplar.channels),
+              {}};
   std::int64_t laid = 0;
   const std::int64_t patches = std::int64_t{x.count()} * y.count();
   for (const std::vector<PatchSlot>& wave : waves(x, y)) {
     parallel_for(static_cast<std::int64_t>(wave.size()), 1, [&](std::int64_t i, std::int64_t) {
       const PatchSlot& slot = wave[static_cast<std::size_t>(i)];
-      lay(quilt, slot, random.stream(static_cast<std::uint64_t>(slot.row * x.count() + slot.column)));
+      lay(quilt, slot,
+          random.stream(static_cast<std::uint64_t>(slot.row * x.count() + slot.column)));
     });
     laid += static_cast<std::int64_t>(wave.size());
     control.step(laid, patches);
@@ -168,8 +174,7 @@ Texture synthesise(const QuiltingParams& params, const Image& exemplar, const Ta
 
 Cost estimate(const QuiltingParams& params, Size exemplar, int channels, const Target& target) {
   const PatchAxis x = cover_axis(params, exemplar.width, target.size.width, tiles_x(target.tile));
-  const PatchAxis y =
-      cover_axis(params, exemplar.height, target.size.height, tiles_y(target.tile));
+  const PatchAxis y = cover_axis(params, exemplar.height, target.size.height, tiles_y(target.tile));
   const double pixels = static_cast<double>(exemplar.width) * exemplar.height;
   const double result = static_cast<double>(target.size.width) * target.size.height;
   const double patches = static_cast<double>(x.count()) * y.count();

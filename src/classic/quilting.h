@@ -32,18 +32,27 @@ struct QuiltingParams {
   static constexpr auto fields() {
     using P = QuiltingParams;
     return std::tuple{
-        Field{"patch_size", &P::patch_size,
-              "side of a patch; at most three quarters of the exemplar's side are used", "pixels",
+        Field{"patch_size",
+              &P::patch_size,
+              "side of a patch; at most three quarters of the exemplar's side are used",
+              "pixels",
               {1, 1024}},
-        Field{"overlap", &P::overlap, "part of a patch's side that overlaps its neighbour", "",
+        Field{"overlap",
+              &P::overlap,
+              "part of a patch's side that overlaps its neighbour",
+              "",
               {0, 0.5}},
-        Field{"tolerance", &P::tolerance,
-              "patches are drawn from those with an error up to (1 + tolerance) times the least", "",
+        Field{"tolerance",
+              &P::tolerance,
+              "patches are drawn from those with an error up to (1 + tolerance) times the least",
+              "",
               {0, 100}},
-        Field{"feather", &P::feather,
+        Field{"feather",
+              &P::feather,
               "blend along the cuts over this many pixels on both sides; 0: every pixel is one of "
               "the exemplar's",
-              "pixels", {0, 64}},
+              "pixels",
+              {0, 64}},
     };
   }
 };

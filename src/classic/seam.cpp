@@ -65,8 +65,8 @@ std::vector<unsigned char> cut_mask(const Image& old, const Image& fresh, const 
     std::vector<float> errors(to_size(length * side.depth));
     for (int along = 0; along < length; ++along)
       for (int in = 0; in < side.depth; ++in)
-        errors[to_size(along * side.depth + in)] = squared_difference(
-            old, fresh, side.x(along, in, patch), side.y(along, in, patch));
+        errors[to_size(along * side.depth + in)] =
+            squared_difference(old, fresh, side.x(along, in, patch), side.y(along, in, patch));
     const std::vector<int> cut = minimum_cut(errors, length, side.depth);
     for (int along = 0; along < length; ++along)
       for (int in = 0; in < cut[to_size(along)]; ++in)
