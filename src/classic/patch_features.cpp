@@ -1,0 +1,60 @@
+#include "classic/patch_features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "classic/patch_field.h"
+
+namespace gramloom {
+
+Image patch_features(const Image& image) {
+  const int pixels = image.width * image.height;
+  const cv::Mat values(pixels, image.channels, CV_32F, const_cast<float*>(image.pixels.data()));
+  cv::Mat covariance, mean, variances, axes;
+  cv::calcCovarMatrix(values, covariance, mean, cv::COVAR_NORMAL | cv::COVAR_ROWS | cv::COVAR_SCALE,
+                      CV_64F);
+  cv::eigen(covariance, variances, axes);
+  const double variance = cv::trace(covariance)[0];
+  const double scale = variance > 0 ? 1 / std::sqrt(variance) : 0;
+  Image features(image.size(), field_features);
+  for (int i = 0; i < pixels; ++i) {
+    const float* from = values.ptr<float>(i);
+    float* to = features.pixels.data() + static_cast<std::ptrdiff_t>(i) * field_features;
+    for (int k = 0; k < std::min(field_features, image.channels); ++k) {
+      double sum = 0;
+      for (int c = 0; c < image.channels; ++c)
+        sum += axes.at<double>(k, c) * (double{from[c]} - mean.at<double>(c));
+      to[k] = static_cast<float>(sum * scale);
+    }
+  }
+  return features;
+}
+
+Image halved(const Image& image) {
+  Image half(image.width / 2, image.height / 2, image.channels);
+  for (int y = 0; y < half.height; ++y)
+    for (int x = 0; x < half.width; ++x) {
+      const float *above = image.at(2 * x, 2 * y), *below = image.at(2 * x, 2 * y + 1);
+      for (int c = 0; c < image.channels; ++c)
+        half.at(x, y)[c] = ((above[c] + above[c + image.channels]) +
+                            (below[c] + below[c + image.channels])) /
+                           4;
+    }
+  return half;
+}
+
+Image at_least(const Image& image, int side) {
+  const auto mirror = [](int i, int length) {
+    i %= 2 * length;
+    return i < length ? i : 2 * length - 1 - i;
+  };
+  Image result(std::max(image.width, side), std::max(image.height, side), image.channels);
+  for (int y = 0; y < result.height; ++y)
+    for (int x = 0; x < result.width; ++x)
+      std::copy_n(image.at(mirror(x, image.width), mirror(y, image.height)), image.channels,
+                  result.at(x, y));
+  return result;
+}
+
+}  // namespace gramloom
