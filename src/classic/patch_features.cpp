@@ -3,12 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "classic/patch_field.h"
 
 namespace gramloom {
 
-Image patch_features(const Image& image) {
+namespace {
+
+constexpr int components = field_features - 1;
+
+/// Features 0 to 2; the last is left 0.
+void set_components(const Image& image, Image& features) {
   const int pixels = image.width * image.height;
   const cv::Mat values(pixels, image.channels, CV_32F, const_cast<float*>(image.pixels.data()));
   cv::Mat covariance, mean, variances, axes;
@@ -17,17 +23,46 @@ Image patch_features(const Image& image) {
   cv::eigen(covariance, variances, axes);
   const double variance = cv::trace(covariance)[0];
   const double scale = variance > 0 ? 1 / std::sqrt(variance) : 0;
-  Image features(image.size(), field_features);
   for (int i = 0; i < pixels; ++i) {
     const float* from = values.ptr<float>(i);
-    float* to = features.pixels.data() + static_cast<std::ptrdiff_t>(i) * field_features;
-    for (int k = 0; k < std::min(field_features, image.channels); ++k) {
+    float* to = features.pixels.data() + std::ptrdiff_t{i} * field_features;
+    for (int k = 0; k < std::min(components, image.channels); ++k) {
       double sum = 0;
       for (int c = 0; c < image.channels; ++c)
         sum += axes.at<double>(k, c) * (double{from[c]} - mean.at<double>(c));
       to[k] = static_cast<float>(sum * scale);
     }
   }
+}
+
+void set_structure(Image& features, double weight) {
+  const cv::Mat values(features.height, features.width, CV_32FC(field_features),
+                       features.pixels.data());
+  cv::Mat means;
+  cv::blur(values, means, {9, 9}, {-1, -1}, cv::BORDER_REFLECT);
+  cv::Mat1f structure(values.size());
+  for (int y = 0; y < features.height; ++y)
+    for (int x = 0; x < features.width; ++x) {
+      const float *value = features.at(x, y), *mean = means.ptr<float>(y, x);
+      float sum = 0;
+      for (int k = 0; k < components; ++k) sum += (value[k] - mean[k]) * (value[k] - mean[k]);
+      structure(y, x) = std::sqrt(sum);
+    }
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(structure, mean, deviation);
+  const double scale = deviation[0] > 1e-6 ? weight / deviation[0] : 0;
+  for (int y = 0; y < features.height; ++y)
+    for (int x = 0; x < features.width; ++x)
+      features.at(x, y)[components] =
+          static_cast<float>((double{structure(y, x)} - mean[0]) * scale);
+}
+
+}  // namespace
+
+Image patch_features(const Image& image, double structure) {
+  Image features(image.size(), field_features);
+  set_components(image, features);
+  set_structure(features, structure);
   return features;
 }
 
@@ -37,9 +72,8 @@ Image halved(const Image& image) {
     for (int x = 0; x < half.width; ++x) {
       const float *above = image.at(2 * x, 2 * y), *below = image.at(2 * x, 2 * y + 1);
       for (int c = 0; c < image.channels; ++c)
-        half.at(x, y)[c] = ((above[c] + above[c + image.channels]) +
-                            (below[c] + below[c + image.channels])) /
-                           4;
+        half.at(x, y)[c] =
+            ((above[c] + above[c + image.channels]) + (below[c] + below[c + image.channels])) / 4;
     }
   return half;
 }

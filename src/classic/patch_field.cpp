@@ -1,7 +1,7 @@
 #include "classic/patch_field.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "core/simd.h"
 #include "core/threads.h"
@@ -43,11 +43,11 @@ __attribute__((always_inline)) inline float squared_distance(const float* a, std
 struct Search {
   const Image& canvas;
   const Image& exemplar;
-  const std::vector<float>& penalty;
+  const PatchPenalty& penalty;
   Size origins;
   std::ptrdiff_t canvas_row, exemplar_row;
 
-  Search(const Image& canvas_, const Image& exemplar_, const std::vector<float>& penalty_)
+  Search(const Image& canvas_, const Image& exemplar_, const PatchPenalty& penalty_)
       : canvas(canvas_),
         exemplar(exemplar_),
         penalty(penalty_),
@@ -67,16 +67,15 @@ struct Best {
   float cost = 0;
 };
 
-__attribute__((always_inline)) inline void try_origin(const Search& search, const float* patch,
+__attribute__((always_inline)) inline void try_origin(const Search& search, int x, int y,
                                                       PatchOrigin origin, Best& best) {
-  const float penalty = search.penalty[static_cast<std::size_t>(origin.y) *
-                                           static_cast<std::size_t>(search.origins.width) +
-                                       static_cast<std::size_t>(origin.x)];
+  const float penalty = search.penalty.of_origin[search.penalty.index(origin)] +
+                        search.penalty.of_shift[search.penalty.shift(x, y, origin)];
   const float limit = best.cost - penalty;
   if (limit <= 0) return;
-  const float distance = squared_distance(patch, search.canvas_row,
-                                          search.exemplar.at(origin.x, origin.y),
-                                          search.exemplar_row, limit);
+  const float distance =
+      squared_distance(search.canvas.at(x, y), search.canvas_row,
+                       search.exemplar.at(origin.x, origin.y), search.exemplar_row, limit);
   if (distance < limit) best = {origin, distance, distance + penalty};
 }
 
@@ -87,8 +86,8 @@ inline int near(int centre, int radius, int count, std::uint32_t bits16) {
 }
 
 GRAMLOOM_SIMD void improve_band(PatchField& field, const std::vector<PatchOrigin>& before,
-                                const Search& search, int first, int last, int direction,
-                                int tries, Random random) {
+                                const Search& search, int first, int last, int direction, int tries,
+                                Random random) {
   const int width = field.size.width, height = field.size.height;
   const auto suggestion = [&](int x, int y, int dx, int dy) {
     x += dx;
@@ -105,17 +104,15 @@ GRAMLOOM_SIMD void improve_band(PatchField& field, const std::vector<PatchOrigin
     const int y = direction > 0 ? first + i : last - 1 - i;
     for (int k = 0; k < width; ++k) {
       const int x = direction > 0 ? k : width - 1 - k;
-      const float* patch = search.canvas.at(x, y);
       const std::size_t index = field.index(x, y);
       Best best{field.nearest[index], 0, std::numeric_limits<float>::infinity()};
-      try_origin(search, patch, best.origin, best);
-      for (const PatchOrigin o :
-           {suggestion(x, y, -direction, 0), suggestion(x, y, 0, -direction)})
-        if (search.contains(o) && o != best.origin) try_origin(search, patch, o, best);
+      try_origin(search, x, y, best.origin, best);
+      for (const PatchOrigin o : {suggestion(x, y, -direction, 0), suggestion(x, y, 0, -direction)})
+        if (search.contains(o) && o != best.origin) try_origin(search, x, y, o, best);
       int radius = std::max(search.origins.width, search.origins.height);
       for (int t = 0; t < tries && radius > 0; ++t, radius /= 3) {
         const std::uint32_t bits = random.bits();
-        try_origin(search, patch,
+        try_origin(search, x, y,
                    {near(best.origin.x, radius, search.origins.width, bits & 0xFFFF),
                     near(best.origin.y, radius, search.origins.height, bits >> 16)},
                    best);
@@ -130,12 +127,11 @@ GRAMLOOM_SIMD void search_all_of_band(PatchField& field, const Search& search, i
                                       int last) {
   for (int y = first; y < last; ++y)
     for (int x = 0; x < field.size.width; ++x) {
-      const float* patch = search.canvas.at(x, y);
       const std::size_t index = field.index(x, y);
       Best best{field.nearest[index], 0, std::numeric_limits<float>::infinity()};
-      try_origin(search, patch, best.origin, best);
+      try_origin(search, x, y, best.origin, best);
       for (int v = 0; v < search.origins.height; ++v)
-        for (int u = 0; u < search.origins.width; ++u) try_origin(search, patch, {u, v}, best);
+        for (int u = 0; u < search.origins.width; ++u) try_origin(search, x, y, {u, v}, best);
       field.nearest[index] = best.origin;
       field.distance[index] = best.distance;
     }
@@ -147,10 +143,13 @@ Size patch_origins(Size image) {
   return {image.width - field_patch + 1, image.height - field_patch + 1};
 }
 
-PatchField random_field(Size size, Tile tile, Size exemplar, Random random) {
-  const Size origins = patch_origins(exemplar);
+PatchField blank_field(Size size, Tile tile) {
   const auto count = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
-  PatchField field{size, tile, std::vector<PatchOrigin>(count), std::vector<float>(count)};
+  return {size, tile, std::vector<PatchOrigin>(count), std::vector<float>(count)};
+}
+
+PatchField random_field(Size size, Tile tile, Size origins, Random random) {
+  PatchField field = blank_field(size, tile);
   for (PatchOrigin& origin : field.nearest)
     origin = {static_cast<int>(random.below(static_cast<std::uint32_t>(origins.width))),
               static_cast<int>(random.below(static_cast<std::uint32_t>(origins.height)))};
@@ -158,7 +157,7 @@ PatchField random_field(Size size, Tile tile, Size exemplar, Random random) {
 }
 
 void improve(PatchField& field, const Image& canvas, const Image& exemplar,
-             const std::vector<float>& penalty, int pass, int tries, Random random) {
+             const PatchPenalty& penalty, int pass, int tries, Random random) {
   const Search search(canvas, exemplar, penalty);
   const std::vector<PatchOrigin> before = field.nearest;
   parallel_for(field.size.height, band_rows, [&](std::int64_t first, std::int64_t last) {
@@ -168,7 +167,7 @@ void improve(PatchField& field, const Image& canvas, const Image& exemplar,
 }
 
 void search_all(PatchField& field, const Image& canvas, const Image& exemplar,
-                const std::vector<float>& penalty) {
+                const PatchPenalty& penalty) {
   const Search search(canvas, exemplar, penalty);
   parallel_for(field.size.height, 1, [&](std::int64_t first, std::int64_t last) {
     search_all_of_band(field, search, static_cast<int>(first), static_cast<int>(last));

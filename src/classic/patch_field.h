@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "classic/patch_penalty.h"
 #include "core/image.h"
 #include "core/random.h"
 
@@ -10,14 +11,6 @@ namespace gramloom {
 /// Patches that are compared as wholes: 8×8 pixels of 4 features (see patch_features.h).
 inline constexpr int field_patch = 8;
 inline constexpr int field_features = 4;
-
-/// The first pixel of a patch in the exemplar.
-struct PatchOrigin {
-  int x = 0;
-  int y = 0;
-
-  friend bool operator==(const PatchOrigin&, const PatchOrigin&) = default;
-};
 
 /// For each patch of a canvas the like patch of an exemplar. The canvas has field_patch − 1 more
 /// pixels than the field in each direction: on an axis that tiles they repeat the first ones.
@@ -36,20 +29,23 @@ struct PatchField {
 /// Number of patches of an image in each direction.
 Size patch_origins(Size image);
 
-PatchField random_field(Size size, Tile tile, Size exemplar, Random random);
+/// All patches at origin (0, 0), at distance 0.
+PatchField blank_field(Size size, Tile tile);
+/// Every patch at a random one of the origins.
+PatchField random_field(Size size, Tile tile, Size origins, Random random);
 
 /// One pass of PatchMatch (Barnes, Shechtman, Finkelstein, Goldman 2009, "PatchMatch: a randomized
 /// correspondence algorithm for structural image editing"): every patch tries what its neighbours
 /// suggest, down and to the right in even passes, up and to the left in odd ones, then `tries`
 /// random origins from ever smaller windows about the best so far. The cost is the squared distance
-/// plus penalty[origin]; it never rises. Bands of rows are scanned at the same time, each seeing
+/// plus the penalty; it never rises. Bands of rows are scanned at the same time, each seeing
 /// the others as they were before the pass (a departure from the paper, which scans the whole
 /// field in one order).
 void improve(PatchField& field, const Image& canvas, const Image& exemplar,
-             const std::vector<float>& penalty, int pass, int tries, Random random);
+             const PatchPenalty& penalty, int pass, int tries, Random random);
 
 /// The least-cost origin of every patch, by trying all.
 void search_all(PatchField& field, const Image& canvas, const Image& exemplar,
-                const std::vector<float>& penalty);
+                const PatchPenalty& penalty);
 
 }  // namespace gramloom

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/simd.h"
 #include "core/threads.h"
@@ -18,8 +19,8 @@ typedef float Lanes __attribute__((vector_size(lanes * sizeof(float)), aligned(4
 GRAMLOOM_SIMD void add_lines(const PatchOrigin* origins, const float* patch_weights, int count,
                              const Image& exemplar, int line, float* sums, float* weights) {
   for (int x = 0; x < count; ++x) {
-    const Lanes* from = reinterpret_cast<const Lanes*>(
-        exemplar.at(origins[x].x, origins[x].y + line));
+    const Lanes* from =
+        reinterpret_cast<const Lanes*>(exemplar.at(origins[x].x, origins[x].y + line));
     Lanes* to = reinterpret_cast<Lanes*>(sums + x * field_features);
     Lanes* weight = reinterpret_cast<Lanes*>(weights + x);
     for (int k = 0; k < field_patch * field_features / lanes; ++k)
@@ -64,7 +65,6 @@ Image vote(const PatchField& field, const Image& exemplar, float floor) {
                [&](std::int64_t first, std::int64_t last) {
                  for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last);
                       ++i) {
-                   // x^-0.6 by square roots, which are the same on every machine: x^-0.625.
                    const float root = std::sqrt(field.distance[i] + floor);
                    patch_weights[i] = 1 / (root * std::sqrt(std::sqrt(root)));
                  }
@@ -106,9 +106,9 @@ std::vector<PatchOrigin> choose_pixels(const PatchField& field, const Image& can
       for (int x = 0; x < size.width; ++x) {
         const float* mean = canvas.at(x, y);
         float best = std::numeric_limits<float>::infinity();
-        PatchOrigin& pixel = chosen[static_cast<std::size_t>(y) *
-                                        static_cast<std::size_t>(size.width) +
-                                    static_cast<std::size_t>(x)];
+        PatchOrigin& pixel =
+            chosen[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
+                   static_cast<std::size_t>(x)];
         for_each_patch_row(field, y, [&](int row, int line) {
           for (int i = 0; i < field_patch; ++i) {
             int column = x - i;
@@ -134,36 +134,11 @@ std::vector<PatchOrigin> choose_pixels(const PatchField& field, const Image& can
 
 double robust_energy(const PatchField& field, float floor) {
   double sum = 0;
-  for (const float distance : field.distance)
-    sum += std::pow(double{distance} + double{floor}, 0.375);
+  for (const float distance : field.distance) {
+    const float fourth_root = std::sqrt(std::sqrt(distance + floor));
+    sum += double{fourth_root * std::sqrt(fourth_root)};
+  }
   return sum;
-}
-
-std::vector<float> usage(const PatchField& field, Size exemplar) {
-  const Size origins = patch_origins(exemplar);
-  const auto width = static_cast<std::size_t>(origins.width);
-  std::vector<float> count(width * static_cast<std::size_t>(origins.height));
-  for (const PatchOrigin o : field.nearest)
-    count[static_cast<std::size_t>(o.y) * width + static_cast<std::size_t>(o.x)] += 1;
-  const float fair = static_cast<float>(field.nearest.size()) / static_cast<float>(count.size());
-  // Mean over a window of patch_size² origins, cut at the edges: rows, then columns.
-  const auto smooth = [](const std::vector<float>& from, int length, std::size_t step,
-                         std::size_t start, std::vector<float>& to) {
-    for (int i = 0; i < length; ++i) {
-      const int low = std::max(0, i - field_patch / 2);
-      const int high = std::min(length, i + field_patch / 2 + 1);
-      float sum = 0;
-      for (int k = low; k < high; ++k) sum += from[start + static_cast<std::size_t>(k) * step];
-      to[start + static_cast<std::size_t>(i) * step] = sum / static_cast<float>(high - low);
-    }
-  };
-  std::vector<float> rows(count.size());
-  for (int y = 0; y < origins.height; ++y)
-    smooth(count, origins.width, 1, static_cast<std::size_t>(y) * width, rows);
-  for (int x = 0; x < origins.width; ++x)
-    smooth(rows, origins.height, width, static_cast<std::size_t>(x), count);
-  for (float& c : count) c /= fair;
-  return count;
 }
 
 }  // namespace gramloom

@@ -8,8 +8,9 @@
 namespace gramloom {
 
 /// The canvas that fits the field's patches best: each pixel is the mean of what the patches over
-/// it say, weighted by (distance² + floor)^((0.8 − 2) / 2), the reweighted least squares of Kwatra,
+/// it say, weighted by (distance² + floor)^((r − 2) / 2), the reweighted least squares of Kwatra,
 /// Essa, Bobick, Kwatra 2005 ("Texture optimization for example-based synthesis", section 3.1).
+/// r is 0.75 instead of their 0.8: square roots suffice for it, the same on every machine.
 Image vote(const PatchField& field, const Image& exemplar, float floor);
 
 /// Each pixel's origin in the exemplar, x and y: of the pixels that the patches over it say, the
@@ -19,12 +20,8 @@ Image vote(const PatchField& field, const Image& exemplar, float floor);
 std::vector<PatchOrigin> choose_pixels(const PatchField& field, const Image& canvas,
                                        const Image& exemplar);
 
-/// Energy that vote() and improve() lower in turn: Σ (distance² + floor)^(0.8 / 2).
+/// Energy that vote() and improve() lower in turn: Σ (distance² + floor)^(r / 2).
 double robust_energy(const PatchField& field, float floor);
-
-/// How often each patch of the exemplar and those less than a patch away are used, relative to
-/// equal use of all (mean about 1).
-std::vector<float> usage(const PatchField& field, Size exemplar);
 
 /// Size of the texture without the border that the canvas repeats.
 Size texture_size(const PatchField& field);
