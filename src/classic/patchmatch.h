@@ -31,7 +31,7 @@ struct PatchmatchParams {
   int iterations = 10;
   int tries = 4;
   double structure = 0.7;
-  double uniformity = 0.1;
+  double uniformity = 0.3;
   double largest_copy = 0.15;
 
   static constexpr auto fields() {
