@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "classic/patch_field.h"
+#include "core/colour_pca.h"
 
 namespace gramloom {
 
@@ -15,24 +16,20 @@ constexpr int components = field_features - 1;
 
 /// Features 0 to 2; the last is left 0.
 void set_components(const Image& image, Image& features) {
-  const int pixels = image.width * image.height;
-  const cv::Mat values(pixels, image.channels, CV_32F, const_cast<float*>(image.pixels.data()));
-  cv::Mat covariance, mean, variances, axes;
-  cv::calcCovarMatrix(values, covariance, mean, cv::COVAR_NORMAL | cv::COVAR_ROWS | cv::COVAR_SCALE,
-                      CV_64F);
-  cv::eigen(covariance, variances, axes);
-  const double variance = cv::trace(covariance)[0];
+  const ColourPca pca = colour_pca(image);
+  double variance = 0;
+  for (const float deviation : pca.deviation) variance += double{deviation} * double{deviation};
   const double scale = variance > 0 ? 1 / std::sqrt(variance) : 0;
-  for (int i = 0; i < pixels; ++i) {
-    const float* from = values.ptr<float>(i);
-    float* to = features.pixels.data() + std::ptrdiff_t{i} * field_features;
-    for (int k = 0; k < std::min(components, image.channels); ++k) {
-      double sum = 0;
-      for (int c = 0; c < image.channels; ++c)
-        sum += axes.at<double>(k, c) * (double{from[c]} - mean.at<double>(c));
-      to[k] = static_cast<float>(sum * scale);
-    }
-  }
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int k = 0; k < std::min(components, image.channels); ++k) {
+        const float* axis = pca.axes.data() + k * image.channels;
+        double sum = 0;
+        for (int c = 0; c < image.channels; ++c)
+          sum += double{axis[c]} *
+                 (double{image.at(x, y)[c]} - double{pca.mean[static_cast<std::size_t>(c)]});
+        features.at(x, y)[k] = static_cast<float>(sum * scale);
+      }
 }
 
 void set_structure(Image& features, double weight) {
