@@ -1,0 +1,21 @@
+#pragma once
+
+#include "core/image.h"
+
+namespace gramloom {
+
+/// The 4 features of each pixel that patches are compared by, each with mean 0: the channels' first
+/// three principal components, scaled to a total variance of 1, and structure, of variance
+/// `structure`²: how much those differ from their means over 9×9 pixels. It stands for the guidance
+/// channel of Kaspar et al. 2015 (distance to edges, section 4): on coarse levels it still tells
+/// where fine lines are, such as joints between tiles.
+Image patch_features(const Image& image, double structure);
+
+/// Half the size (rounded down), each pixel the mean of 2×2, so that pixel (x, y) of the half lies
+/// over pixels (2x, 2y) to (2x + 1, 2y + 1).
+Image halved(const Image& image);
+
+/// `image`, continued by mirroring to at least `side` pixels in each direction.
+Image at_least(const Image& image, int side);
+
+}  // namespace gramloom

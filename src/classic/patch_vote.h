@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "classic/patch_field.h"
+#include "core/image.h"
+
+namespace gramloom {
+
+/// The canvas that fits the field's patches best: each pixel is the mean of what the patches over
+/// it say, weighted by (distance² + floor)^((r − 2) / 2), the reweighted least squares of Kwatra,
+/// Essa, Bobick, Kwatra 2005 ("Texture optimization for example-based synthesis", section 3.1).
+/// r is 0.75 instead of their 0.8: square roots suffice for it, the same on every machine.
+Image vote(const PatchField& field, const Image& exemplar, float floor);
+
+/// Each pixel's origin in the exemplar, x and y: of the pixels that the patches over it say, the
+/// one nearest to their weighted mean, so that every pixel is one of the exemplar's and sharp (as
+/// Han et al. 2006, "Fast example-based surface texture synthesis via discrete optimization").
+/// `canvas` is what vote() gave. Row by row, without the canvas's repeated border.
+std::vector<PatchOrigin> choose_pixels(const PatchField& field, const Image& canvas,
+                                       const Image& exemplar);
+
+/// Energy that vote() and improve() lower in turn: Σ (distance² + floor)^(r / 2).
+double robust_energy(const PatchField& field, float floor);
+
+/// Size of the texture without the border that the canvas repeats.
+Size texture_size(const PatchField& field);
+
+}  // namespace gramloom

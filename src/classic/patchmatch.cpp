@@ -1,0 +1,172 @@
+#include "classic/patchmatch.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "classic/patch_features.h"
+#include "classic/patch_field.h"
+#include "classic/patch_penalty.h"
+#include "classic/patch_vote.h"
+#include "classic/quilting.h"
+#include "core/error.h"
+
+namespace gramloom {
+
+namespace {
+
+/// Sides below this are too short for patches to find their like in.
+constexpr int smallest_side = 2 * field_patch;
+/// Lower bound of the exemplar's shorter side on the coarsest level.
+constexpr int coarsest_side = 28;
+constexpr int more_iterations = 12;  // on each coarser level
+constexpr int border = field_patch - 1;
+
+/// Squared distance of patches that are as good as equal: 1e-4 of the exemplar's variance a pixel.
+constexpr float noise_floor = 1e-4f * field_patch * field_patch;
+/// The same for a first vote, whose patches' distances are not known yet: all weights are equal.
+constexpr float equal_weights = 1;
+
+struct Level {
+  Image exemplar;  // features
+  Size texture;
+  int iterations = 0;
+};
+
+int level_count(const PatchmatchParams& params, Size exemplar, Size texture) {
+  int count = 1;
+  while (std::min(exemplar.width, exemplar.height) >> count >= coarsest_side &&
+         std::min(texture.width, texture.height) >> count >= smallest_side)
+    ++count;
+  return params.levels > 0 ? std::min(count, params.levels) : count;
+}
+
+/// Finest first.
+std::vector<Level> make_levels(const PatchmatchParams& params, const Image& exemplar,
+                               Size texture) {
+  std::vector<Level> levels{
+      {patch_features(exemplar, params.structure), texture, params.iterations}};
+  const int count = level_count(params, exemplar.size(), texture);
+  while (static_cast<int>(levels.size()) < count) {
+    const Level& finer = levels.back();
+    const Size half{(finer.texture.width + 1) / 2, (finer.texture.height + 1) / 2};
+    Level next{halved(finer.exemplar), half, finer.iterations + more_iterations};
+    levels.push_back(std::move(next));
+  }
+  return levels;
+}
+
+/// Number of patches in each direction that cover a texture.
+Size patches_of(Size texture, Tile tile) {
+  return {texture.width - (tiles_x(tile) ? 0 : border),
+          texture.height - (tiles_y(tile) ? 0 : border)};
+}
+
+/// A canvas to start from: a quilt of the exemplar, repeated where it tiles. Patches of 12 pixels
+/// on the coarsest level, a third of the exemplar, which overlap widely and match closely, keep
+/// long rows straight.
+Image first_canvas(const Level& level, Tile tile, Random random) {
+  const QuiltingParams params{.patch_size = 12, .overlap = 1.0 / 3, .tolerance = 0.05};
+  const Image quilt = synthesise(params, level.exemplar, {level.texture, tile}, random, {}).image;
+  const Size patches = patches_of(level.texture, tile);
+  Image canvas(patches.width + border, patches.height + border, field_features);
+  for (int y = 0; y < canvas.height; ++y)
+    for (int x = 0; x < canvas.width; ++x)
+      std::copy_n(quilt.at(x % quilt.width, y % quilt.height), field_features, canvas.at(x, y));
+  return canvas;
+}
+
+/// The field of a level from that of the next coarser one: each patch comes from where the patch
+/// over it comes from.
+PatchField refined(const PatchField& coarse, const Level& level) {
+  const Size size = patches_of(level.texture, coarse.tile);
+  const Size origins = patch_origins(level.exemplar.size());
+  PatchField fine = blank_field(size, coarse.tile);
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
+      const int cx = std::min(x / 2, coarse.size.width - 1);
+      const int cy = std::min(y / 2, coarse.size.height - 1);
+      const PatchOrigin o = coarse.nearest[coarse.index(cx, cy)];
+      fine.nearest[fine.index(x, y)] = {std::clamp(2 * o.x + x - 2 * cx, 0, origins.width - 1),
+                                        std::clamp(2 * o.y + y - 2 * cy, 0, origins.height - 1)};
+    }
+  return fine;
+}
+
+/// Few enough patches and origins to try all.
+bool is_small(const Level& level) {
+  const auto area = [](Size s) { return static_cast<double>(s.width) * s.height; };
+  return area(level.texture) * area(level.exemplar.size()) < 2e7;
+}
+
+/// Copies pixel by pixel from the exemplar.
+Image picked(const Image& exemplar, const std::vector<PatchOrigin>& pixels, Size chosen,
+             Size wanted) {
+  Image result(wanted, exemplar.channels);
+  for (int y = 0; y < wanted.height; ++y)
+    for (int x = 0; x < wanted.width; ++x) {
+      const PatchOrigin from =
+          pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(chosen.width) +
+                 static_cast<std::size_t>(x)];
+      std::copy_n(exemplar.at(from.x, from.y), exemplar.channels, result.at(x, y));
+    }
+  return result;
+}
+
+}  // namespace
+
+Texture synthesise(const PatchmatchParams& params, const Image& exemplar, const Target& target,
+                   Random random, const Control& control) {
+  check_fields(params);
+  if (exemplar.empty()) throw Error("patchmatch needs an exemplar with at least one pixel");
+  if (target.size.width < 1 || target.size.height < 1)
+    throw Error("a texture of {}×{} pixels cannot be made", target.size.width, target.size.height);
+  const Image source = at_least(exemplar, smallest_side);
+  // A texture that does not tile may be cut from a larger one; one that tiles wraps at any size.
+  const Size size{
+      tiles_x(target.tile) ? target.size.width : std::max(target.size.width, smallest_side),
+      tiles_y(target.tile) ? target.size.height : std::max(target.size.height, smallest_side)};
+  const std::vector<Level> levels = make_levels(params, source, size);
+  Progress progress;
+  for (const Level& level : levels) progress.steps += level.iterations;
+
+  PatchField field;
+  Image canvas;
+  for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
+    const Size origins = patch_origins(level->exemplar.size());
+    PatchPenalty penalty(patches_of(level->texture, target.tile), origins);
+    if (level == levels.rbegin()) {
+      field = random_field(penalty.field, target.tile, origins, random.stream(0));
+      canvas = first_canvas(*level, target.tile, random.stream(1));
+      if (is_small(*level)) search_all(field, canvas, level->exemplar, penalty);
+    } else {
+      field = refined(field, *level);
+      canvas = vote(field, level->exemplar, equal_weights);
+    }
+    for (int i = 0; i < level->iterations; ++i) {
+      improve(field, canvas, level->exemplar, penalty, i, params.tries,
+              random.stream(2).stream(static_cast<std::uint64_t>(progress.step)));
+      progress.loss = robust_energy(field, noise_floor);
+      canvas = vote(field, level->exemplar, noise_floor);
+      update(penalty, field, params.uniformity, params.largest_copy);
+      ++progress.step;
+      if (!control.report(progress)) throw Interrupted();
+    }
+  }
+  const auto pixels = choose_pixels(field, canvas, levels.front().exemplar);
+  return {picked(source, pixels, size, target.size), {}};
+}
+
+Cost estimate(const PatchmatchParams& params, Size exemplar, int channels, const Target& target) {
+  const auto area = [](double width, double height) { return width * height; };
+  const double pixels = area(target.size.width, target.size.height);
+  const double samples = area(exemplar.width, exemplar.height);
+  const double shifts =
+      area(target.size.width + exemplar.width, target.size.height + exemplar.height);
+  // A level has a quarter of the work of the next finer one, but more iterations.
+  const double iterations = params.iterations * 4.0 / 3 + more_iterations * 4.0 / 9;
+  return {.bytes = pixels * (72 + 4.0 * channels) + samples * (32 + 4.0 * channels) + shifts * 8,
+          .seconds = pixels * iterations * (60 + 25.0 * params.tries) * 1e-9};
+}
+
+}  // namespace gramloom

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <string_view>
+#include <tuple>
+
+#include "core/fields.h"
+#include "core/image.h"
+#include "core/progress.h"
+#include "core/random.h"
+
+namespace gramloom {
+
+/// Image quilting (Efros & Freeman 2001, "Image quilting for texture synthesis and transfer"):
+/// patches of the exemplar are laid on a grid so that they overlap; each is drawn from those whose
+/// overlap error is within `tolerance` of the best one, and cut to its neighbours along the path of
+/// least error. Departures from the paper:
+/// - where two sides meet, each has a cut of its own and the patch keeps what lies inside both;
+/// - on an axis that tiles, the last patch is also matched and cut to the first one's other side;
+/// - patches are laid in the order column + 2 · row instead of row by row, so that several can be
+///   laid at once (each still sees its left, upper left, upper and upper right neighbours);
+/// - patches shrink a little so that a whole number of them fills the texture.
+struct QuiltingParams {
+  static constexpr std::string_view kind = "quilting";
+  static constexpr std::string_view summary =
+      "overlapping patches cut along the path of least error (Efros & Freeman 2001)";
+
+  int patch_size = 40;
+  double overlap = 1.0 / 6;
+  double tolerance = 0.1;
+  int feather = 0;
+
+  static constexpr auto fields() {
+    using P = QuiltingParams;
+    return std::tuple{
+        Field{"patch_size",
+              &P::patch_size,
+              "side of a patch; at most three quarters of the exemplar's side are used",
+              "pixels",
+              {1, 1024}},
+        Field{"overlap",
+              &P::overlap,
+              "part of a patch's side that overlaps its neighbour",
+              "",
+              {0, 0.5}},
+        Field{"tolerance",
+              &P::tolerance,
+              "patches are drawn from those with an error up to (1 + tolerance) times the least",
+              "",
+              {0, 100}},
+        Field{"feather",
+              &P::feather,
+              "blend along the cuts over this many pixels on both sides; 0: every pixel is one of "
+              "the exemplar's",
+              "pixels",
+              {0, 64}},
+    };
+  }
+};
+
+/// The texture. An exemplar smaller than a patch makes the patches smaller.
+/// Throws Error for an empty exemplar or target, Interrupted when `control` asks to stop.
+Texture synthesise(const QuiltingParams& params, const Image& exemplar, const Target& target,
+                   Random random, const Control& control);
+
+/// Peak memory and time of that synthesis.
+Cost estimate(const QuiltingParams& params, Size exemplar, int channels, const Target& target);
+
+}  // namespace gramloom
