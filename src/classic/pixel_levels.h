@@ -1,0 +1,53 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+
+namespace gramloom::pixel {
+
+/// A position in an exemplar, in samples of its level.
+struct Point {
+  int x = 0;
+  int y = 0;
+
+  friend bool operator==(const Point&, const Point&) = default;
+};
+
+/// The exemplar as one level of the synthesis compares it: blurred for that level, channels
+/// decorrelated, mean 0. Level 0 is the exemplar; a pixel of level l is 2^l of its pixels wide.
+/// Coarse levels are sampled twice as densely as their pixels, so that a coarse result may take
+/// its pixels from between the pixels of an ordinary pyramid (as the Gaussian stack of Lefebvre &
+/// Hoppe 2005, at a third of its size).
+struct Level {
+  Image colours;
+  int step = 1;   // samples between neighbouring pixels of this level
+  int ratio = 1;  // samples of the next finer level for one of this level
+
+  int count() const { return colours.width * colours.height; }
+  int index(Point p) const { return p.y * colours.width + p.x; }
+  Point point(int index) const { return {index % colours.width, index / colours.width}; }
+  /// p, or the sample of the edge that is nearest to it.
+  Point nearest(Point p) const {
+    return {std::clamp(p.x, 0, colours.width - 1), std::clamp(p.y, 0, colours.height - 1)};
+  }
+  bool contains(Point p) const {
+    return p.x >= 0 && p.y >= 0 && p.x < colours.width && p.y < colours.height;
+  }
+};
+
+/// Finest first. Of more than 4 channels, the 4 principal components are kept: only comparisons
+/// see them. The values are scaled so that their variance, summed over channels, is 1.
+std::vector<Level> make_levels(const Image& exemplar, int count);
+
+/// `asked`, or if that is 0 as many as bring the shorter side of both down to 20 to 39 pixels;
+/// never more than leave the exemplar a pixel.
+int level_count(int asked, Size exemplar, Size result);
+
+/// `image` with `border` more pixels on each side, mirrored without repeating the edge pixel.
+Image mirrored(const Image& image, int border);
+
+}  // namespace gramloom::pixel
