@@ -9,52 +9,52 @@
 namespace gramloom::pixel {
 namespace {
 
-constexpr auto dims = static_cast<std::size_t>(feature_size);
+/// A feature in vector registers, however many the machine needs for it.
+using Lanes = float __attribute__((vector_size(feature_size * sizeof(float)), may_alias));
 
-/// out = Σ_i values[i] · basis[i], over `count` rows of the basis.
-GRAMLOOM_SIMD void weighted_sum(const float* values, std::size_t count, const float* basis,
-                                float* out) {
+/// feature = Σ_i values[i] · basis[i]
+GRAMLOOM_SIMD void weighted_sum(const float* values, std::size_t count, const Feature* basis,
+                                Feature* feature) {
+  const auto* rows = reinterpret_cast<const Lanes*>(basis);
   // Four sums at a time: one alone would wait for each addition.
-  float sums[4][dims] = {};
+  Lanes a{}, b{}, c{}, d{};
   std::size_t i = 0;
-  for (; i + 4 <= count; i += 4)
-    for (std::size_t part = 0; part < 4; ++part)
-      for (std::size_t d = 0; d < dims; ++d)
-        sums[part][d] += values[i + part] * basis[(i + part) * dims + d];
-  for (; i < count; ++i)
-    for (std::size_t d = 0; d < dims; ++d) sums[0][d] += values[i] * basis[i * dims + d];
-  for (std::size_t d = 0; d < dims; ++d)
-    out[d] = (sums[0][d] + sums[1][d]) + (sums[2][d] + sums[3][d]);
+  for (; i + 4 <= count; i += 4) {
+    a += values[i] * rows[i];
+    b += values[i + 1] * rows[i + 1];
+    c += values[i + 2] * rows[i + 2];
+    d += values[i + 3] * rows[i + 3];
+  }
+  for (; i < count; ++i) a += values[i] * rows[i];
+  *reinterpret_cast<Lanes*>(feature) = (a + b) + (c + d);
 }
 
 /// sums[i] += values[i] · feature
-GRAMLOOM_SIMD void add_outer_product(const float* values, std::size_t count, const float* feature,
-                                     float* sums) {
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t d = 0; d < dims; ++d) sums[i * dims + d] += values[i] * feature[d];
+GRAMLOOM_SIMD void add_outer_product(const float* values, std::size_t count, const Feature* feature,
+                                     Feature* sums) {
+  auto* rows = reinterpret_cast<Lanes*>(sums);
+  const Lanes lanes = *reinterpret_cast<const Lanes*>(feature);
+  for (std::size_t i = 0; i < count; ++i) rows[i] += values[i] * lanes;
 }
 
-/// The columns of `basis` [rows][feature_size] become orthonormal (Gram–Schmidt, twice for
+/// The columns of `basis` become orthonormal (Gram–Schmidt, twice for
 /// accuracy); a column that depends on the others becomes 0.
-void orthonormalise(std::vector<float>& basis) {
-  const std::size_t rows = basis.size() / dims;
-  const auto dot = [&](std::size_t a, std::size_t b) {
+void orthonormalise(std::vector<Feature>& basis) {
+    const auto dot = [&](std::size_t a, std::size_t b) {
     double sum = 0;
-    for (std::size_t i = 0; i < rows; ++i)
-      sum += static_cast<double>(basis[i * dims + a]) * static_cast<double>(basis[i * dims + b]);
+    for (const Feature& row : basis) sum += static_cast<double>(row[a]) * static_cast<double>(row[b]);
     return sum;
   };
-  for (std::size_t column = 0; column < dims; ++column) {
+  for (std::size_t column = 0; column < feature_size; ++column) {
     const double before = std::sqrt(dot(column, column));
     for (int twice = 0; twice < 2; ++twice)
       for (std::size_t other = 0; other < column; ++other) {
         const auto shadow = static_cast<float>(dot(column, other));
-        for (std::size_t i = 0; i < rows; ++i)
-          basis[i * dims + column] -= shadow * basis[i * dims + other];
+        for (Feature& row : basis) row[column] -= shadow * row[other];
       }
     const double norm = std::sqrt(dot(column, column));
     const auto scale = static_cast<float>(norm > 1e-4 * before && norm > 1e-30 ? 1 / norm : 0);
-    for (std::size_t i = 0; i < rows; ++i) basis[i * dims + column] *= scale;
+    for (Feature& row : basis) row[column] *= scale;
   }
 }
 
@@ -82,12 +82,25 @@ std::vector<float> gaussian_weights(int radius) {
   return weights;
 }
 
+GRAMLOOM_SIMD float squared_distance(const Feature& a, const Feature& b) {
+  const Lanes difference =
+      *reinterpret_cast<const Lanes*>(&a) - *reinterpret_cast<const Lanes*>(&b);
+  const Lanes squares = difference * difference;
+  using Eight = float __attribute__((vector_size(32)));
+  using Four = float __attribute__((vector_size(16)));
+  const Eight eight = __builtin_shufflevector(squares, squares, 0, 1, 2, 3, 4, 5, 6, 7) +
+                      __builtin_shufflevector(squares, squares, 8, 9, 10, 11, 12, 13, 14, 15);
+  const Four four = __builtin_shufflevector(eight, eight, 0, 1, 2, 3) +
+                    __builtin_shufflevector(eight, eight, 4, 5, 6, 7);
+  return (four[0] + four[1]) + (four[2] + four[3]);
+}
+
 Feature Projection::project(const float* window, std::ptrdiff_t row, std::ptrdiff_t pixel) const {
   // Radius 15 and 4 channels at most.
   float values[31 * 31 * 4];
   gather(window, row, pixel, side(), channels, values);
   Feature feature;
-  weighted_sum(values, basis.size() / dims, basis.data(), feature.data());
+  weighted_sum(values, basis.size(), basis.data(), &feature);
   return feature;
 }
 
@@ -112,22 +125,24 @@ Projection make_projection(const Level& level, int radius, Random random) {
       window[i] *= std::sqrt(weights[i / static_cast<std::size_t>(padded.channels)]);
   }
 
-  projection.basis.resize(length * dims);
-  for (float& value : projection.basis) value = random.normal();
+  projection.basis.resize(length);
+  for (Feature& start : projection.basis)
+    for (float& value : start) value = random.normal();
   orthonormalise(projection.basis);
   for (int iteration = 0; iteration < 6; ++iteration) {
-    std::vector<float> sums(length * dims, 0.0f);
+    std::vector<Feature> sums(length);
     Feature feature;
     for (int s = 0; s < samples; ++s) {
       const float* window = windows.data() + static_cast<std::size_t>(s) * length;
-      weighted_sum(window, length, projection.basis.data(), feature.data());
-      add_outer_product(window, length, feature.data(), sums.data());
+      weighted_sum(window, length, projection.basis.data(), &feature);
+      add_outer_product(window, length, &feature, sums.data());
     }
     orthonormalise(sums);
     projection.basis = std::move(sums);
   }
-  for (std::size_t i = 0; i < projection.basis.size(); ++i)
-    projection.basis[i] *= std::sqrt(weights[i / dims / static_cast<std::size_t>(padded.channels)]);
+  for (std::size_t i = 0; i < length; ++i)
+    for (float& value : projection.basis[i])
+      value *= std::sqrt(weights[i / static_cast<std::size_t>(padded.channels)]);
   return projection;
 }
 

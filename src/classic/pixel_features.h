@@ -11,7 +11,9 @@ namespace gramloom::pixel {
 
 /// A neighbourhood, projected to its principal components: one cache line.
 inline constexpr int feature_size = 16;
-struct alignas(64) Feature : std::array<float, feature_size> {};
+struct alignas(64) Feature : std::array<float, feature_size> {
+  Feature() : std::array<float, feature_size>{} {}
+};
 
 /// Square neighbourhoods of (2·radius + 1)² pixels, weighted by a Gaussian about their centre and
 /// projected to the 16 dimensions in which those of a level differ most (Lefebvre & Hoppe 2005,
@@ -20,7 +22,7 @@ struct alignas(64) Feature : std::array<float, feature_size> {};
 struct Projection {
   int radius = 0;
   int channels = 0;
-  std::vector<float> basis;  // [pixel of the neighbourhood][channel][feature_size], weights in it
+  std::vector<Feature> basis;  // [pixel of the neighbourhood][channel], weights in it
 
   int side() const { return 2 * radius + 1; }
 

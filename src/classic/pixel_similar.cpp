@@ -3,18 +3,9 @@
 #include <numeric>
 
 #include "classic/pixel_features.h"
-#include "core/simd.h"
 #include "core/threads.h"
 
 namespace gramloom::pixel {
-
-GRAMLOOM_SIMD float squared_distance(const Feature& a, const Feature& b) {
-  float squares[feature_size];
-  for (std::size_t d = 0; d < feature_size; ++d) squares[d] = (a[d] - b[d]) * (a[d] - b[d]);
-  for (std::size_t half = feature_size / 2; half > 0; half /= 2)
-    for (std::size_t d = 0; d < half; ++d) squares[d] += squares[d + half];
-  return squares[0];
-}
 
 namespace {
 
