@@ -40,9 +40,10 @@ GRAMLOOM_SIMD void add_outer_product(const float* values, std::size_t count, con
 /// The columns of `basis` become orthonormal (Gram–Schmidt, twice for
 /// accuracy); a column that depends on the others becomes 0.
 void orthonormalise(std::vector<Feature>& basis) {
-    const auto dot = [&](std::size_t a, std::size_t b) {
+  const auto dot = [&](std::size_t a, std::size_t b) {
     double sum = 0;
-    for (const Feature& row : basis) sum += static_cast<double>(row[a]) * static_cast<double>(row[b]);
+    for (const Feature& row : basis)
+      sum += static_cast<double>(row[a]) * static_cast<double>(row[b]);
     return sum;
   };
   for (std::size_t column = 0; column < feature_size; ++column) {

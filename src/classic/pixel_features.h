@@ -44,6 +44,10 @@ std::vector<float> gaussian_weights(int radius);
 /// Σ (a − b)²
 float squared_distance(const Feature& a, const Feature& b);
 
+/// How far apart like samples are to be, so that they don't name the same place again: a twentieth
+/// of the level.
+int distance_apart(const Level& level);
+
 /// For each sample of the level, `count` samples whose features are near its own: itself first,
 /// then the others from near to far, each at least `apart` samples away from it in x or y. Fewer
 /// such samples: the rest are itself again. Shape [sample][count].

@@ -12,11 +12,6 @@
 namespace gramloom::pixel {
 namespace {
 
-/// How far apart like samples are, so that they do not merely name the same place again.
-int distance_apart(const Level& level) {
-  return std::max(1, std::min(level.colours.width, level.colours.height) / 20);
-}
-
 /// What finds the best source for a pixel at one level.
 struct Matcher {
   const Level& level;

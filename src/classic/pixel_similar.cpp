@@ -120,6 +120,10 @@ struct Lists {
 
 }  // namespace
 
+int distance_apart(const Level& level) {
+  return std::max(1, std::min(level.colours.width, level.colours.height) / 20);
+}
+
 std::vector<Point> similar_samples(const Level& level, const std::vector<Feature>& features,
                                    int count, int apart, Random random) {
   const auto samples = static_cast<std::size_t>(level.count());

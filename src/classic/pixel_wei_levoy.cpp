@@ -1,0 +1,141 @@
+#include <algorithm>
+#include <optional>
+
+#include "classic/pixel_algorithms.h"
+
+namespace gramloom::pixel {
+namespace {
+
+/// The level above: finished, and compared in full.
+struct Parent {
+  const Level& level;
+  const Canvas& canvas;
+  Reference reference;
+  int radius;
+};
+
+int floor_half(int value, int ratio) {
+  return ratio == 1 ? value : (value >= 0 ? value / 2 : (value - 1) / 2);
+}
+
+/// Synthesis of one level in scan order.
+class Scan {
+ public:
+  Scan(const PixelParams& params, const Level& level, const Parent* parent, Canvas& canvas,
+       Random random)
+      : params_(params),
+        level_(level),
+        parent_(parent),
+        reference_(level, params.radius),
+        random_(random),
+        canvas_(canvas),
+        known_(canvas.source.size(), true) {
+    if (params.search == PixelSearch::coherence)
+      similar_ = make_similar(params, level, random.stream(1));
+  }
+
+  void choose(int x, int y) {
+    Random random = random_.stream(canvas_.index(x, y) + 2);
+    const auto above = parent_ ? parents(x, y) : std::vector<Known>{};
+    const auto before = causal(x, y);
+    if (params_.search == PixelSearch::exact) {
+      auto errors = reference_.errors(before);
+      if (parent_) add_parent_errors(parent_->reference.errors(above), x, y, errors);
+      canvas_.at(x, y) = level_.point(static_cast<int>(pick(errors, params_.tolerance, random)));
+      return;
+    }
+    auto candidates = coherent_candidates(canvas_, known_, level_, similar_, x, y);
+    std::vector<float> errors;
+    for (const Point p : candidates)
+      errors.push_back(reference_.error(before, p) +
+                       (parent_ ? parent_->reference.error(above, parent_sample(p, x, y)) : 0.0f));
+    if (!candidates.empty()) canvas_.at(x, y) = candidates[pick(errors, params_.tolerance, random)];
+  }
+
+ private:
+  /// The L-shaped stencil: whole rows above, and the left part of the pixel's own.
+  std::vector<Known> causal(int x, int y) const {
+    std::vector<Known> found;
+    for (int dy = -params_.radius; dy <= 0; ++dy)
+      for (int dx = -params_.radius; dx <= params_.radius; ++dx) {
+        if (dy == 0 && dx == 0) return found;
+        int near_x = x + dx, near_y = y + dy;
+        if (!canvas_.wrap(near_x, near_y)) continue;
+        const Point p = canvas_.at(near_x, near_y);
+        found.push_back({reference_.offset(dx, dy), 1.0f, level_.colours.at(p.x, p.y)});
+      }
+    return found;
+  }
+
+  std::vector<Known> parents(int x, int y) const {
+    std::vector<Known> found;
+    for (int dy = -parent_->radius; dy <= parent_->radius; ++dy)
+      for (int dx = -parent_->radius; dx <= parent_->radius; ++dx) {
+        int near_x = x / 2 + dx, near_y = y / 2 + dy;
+        if (!parent_->canvas.wrap(near_x, near_y)) continue;
+        const Point p = parent_->canvas.at(near_x, near_y);
+        found.push_back(
+            {parent_->reference.offset(dx, dy), 1.0f, parent_->level.colours.at(p.x, p.y)});
+      }
+    return found;
+  }
+
+  /// Where the parent of pixel (x, y) would come from, if (x, y) came from p.
+  Point parent_sample(Point p, int x, int y) const {
+    const int ratio = parent_->level.ratio;
+    return parent_->level.nearest({floor_half(p.x - x % 2 * level_.step, ratio),
+                                   floor_half(p.y - y % 2 * level_.step, ratio)});
+  }
+
+  void add_parent_errors(const std::vector<float>& above, int x, int y,
+                         std::vector<float>& errors) const {
+    for (std::size_t i = 0; i < errors.size(); ++i)
+      errors[i] += above[static_cast<std::size_t>(
+          parent_->level.index(parent_sample(level_.point(static_cast<int>(i)), x, y)))];
+  }
+
+  const PixelParams& params_;
+  const Level& level_;
+  const Parent* parent_;
+  Reference reference_;
+  Random random_;
+  Canvas& canvas_;
+  std::vector<bool> known_;
+  Similar similar_;
+};
+
+}  // namespace
+
+Canvas wei_levoy(const PixelParams& params, const Image& exemplar, const Target& target,
+                 Random random, const Control& control) {
+  const int count = level_count(params.levels, exemplar.size(), target.size);
+  const auto levels = make_levels(exemplar, count);
+  Canvas canvas(size_at(target.size, count - 1), target.tile);
+  for (std::size_t i = 0; i < canvas.source.size(); ++i)
+    canvas.source[i] = levels.back().point(static_cast<int>(
+        random.stream(i).below(static_cast<std::uint32_t>(levels.back().count()))));
+
+  std::int64_t all = 0, done = 0;
+  for (int l = 0; l < count; ++l) all += size_at(target.size, l).height;
+  Canvas coarser = canvas;
+  for (int l = count - 1; l >= 0; --l) {
+    const auto i = static_cast<std::size_t>(l);
+    std::optional<Parent> parent;
+    if (l < count - 1) {
+      coarser = std::move(canvas);
+      canvas = refined(coarser, levels[i + 1], levels[i], size_at(target.size, l));
+      const int radius = (params.radius + 1) / 2;
+      parent.emplace(Parent{levels[i + 1], coarser, Reference(levels[i + 1], radius), radius});
+    }
+    Scan scan(params, levels[i], parent ? &*parent : nullptr, canvas,
+              random.stream((std::uint64_t{1} << 40) + i));
+    for (int y = 0; y < canvas.size.height; ++y) {
+      control.step(done++, all);
+      for (int x = 0; x < canvas.size.width; ++x) scan.choose(x, y);
+    }
+  }
+  control.step(all, all);
+  return canvas;
+}
+
+}  // namespace gramloom::pixel
