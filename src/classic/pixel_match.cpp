@@ -8,17 +8,18 @@
 namespace gramloom::pixel {
 namespace {
 
-/// errors[i] += weight · Σ_c (values[i·channels + c] − colour[c])²
-GRAMLOOM_SIMD void add_errors(const float* values, int channels, int count, float weight,
-                              const float* colour, float* errors) {
-  for (int i = 0; i < count; ++i) {
-    float sum = 0;
-    for (int c = 0; c < channels; ++c) {
-      const float difference = values[i * channels + c] - colour[c];
-      sum += difference * difference;
-    }
-    errors[i] += weight * sum;
-  }
+/// errors[i] += weight · (values[i] − wanted)²
+GRAMLOOM_SIMD void add_errors(const float* values, float wanted, float weight, int count,
+                              float* errors) {
+  for (int i = 0; i < count; ++i)
+    errors[i] += weight * ((values[i] - wanted) * (values[i] - wanted));
+}
+
+/// The channels of an image, each as an image of its own.
+std::vector<Image> planes_of(const Image& image) {
+  std::vector<Image> planes;
+  for (int c = 0; c < image.channels; ++c) planes.push_back(extract_channels(image, c, 1));
+  return planes;
 }
 
 }  // namespace
@@ -27,21 +28,21 @@ Reference::Reference(const Level& level, int reach)
     : size_(level.colours.size()),
       step_(level.step),
       border_(reach * level.step),
-      padded_(mirrored(level.colours, border_)) {}
+      planes_(planes_of(mirrored(level.colours, border_))) {}
 
 std::ptrdiff_t Reference::offset(int dx, int dy) const {
-  return (static_cast<std::ptrdiff_t>(dy) * padded_.width + dx) * step_ * padded_.channels;
+  return (static_cast<std::ptrdiff_t>(dy) * planes_.front().width + dx) * step_;
 }
 
 float Reference::error(std::span<const Known> neighbourhood, Point p) const {
-  const float* centre = padded_.at(p.x + border_, p.y + border_);
+  const std::size_t centre = planes_.front().index(p.x + border_, p.y + border_);
   float error = 0;
-  for (const Known& known : neighbourhood) {
-    const float* values = centre + known.offset;
-    float sum = 0;
-    for (int c = 0; c < padded_.channels; ++c)
-      sum += (values[c] - known.colour[c]) * (values[c] - known.colour[c]);
-    error += known.weight * sum;
+  for (std::size_t c = 0; c < planes_.size(); ++c) {
+    const float* values = planes_[c].pixels.data() + centre;
+    for (const Known& known : neighbourhood) {
+      const float difference = values[known.offset] - known.colour[c];
+      error += known.weight * (difference * difference);
+    }
   }
   return error;
 }
@@ -49,12 +50,13 @@ float Reference::error(std::span<const Known> neighbourhood, Point p) const {
 std::vector<float> Reference::errors(std::span<const Known> neighbourhood) const {
   const auto width = static_cast<std::size_t>(size_.width);
   std::vector<float> errors(width * static_cast<std::size_t>(size_.height), 0.0f);
-  parallel_for(size_.height, 8, [&](std::int64_t begin, std::int64_t end) {
+  parallel_for(size_.height, 32, [&](std::int64_t begin, std::int64_t end) {
     for (auto y = begin; y < end; ++y)
-      for (const Known& known : neighbourhood)
-        add_errors(padded_.at(border_, border_ + static_cast<int>(y)) + known.offset,
-                   padded_.channels, size_.width, known.weight, known.colour,
-                   errors.data() + static_cast<std::size_t>(y) * width);
+      for (std::size_t c = 0; c < planes_.size(); ++c)
+        for (const Known& known : neighbourhood)
+          add_errors(planes_[c].at(border_, border_ + static_cast<int>(y)) + known.offset,
+                     known.colour[c], known.weight, size_.width,
+                     errors.data() + static_cast<std::size_t>(y) * width);
   });
   return errors;
 }

@@ -36,7 +36,7 @@ class Reference {
   Size size_;
   int step_;
   int border_;
-  Image padded_;
+  std::vector<Image> planes_;  // one channel each, with a mirrored border
 };
 
 /// The index of an error, at random among those at most (1 + tolerance) times the least.

@@ -1,0 +1,140 @@
+// The parts of the accelerated search, against the exact one.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "classic/pixel_algorithms.h"
+#include "classic/pixel_features.h"
+
+namespace gramloom::pixel {
+namespace {
+
+Image waves(Size size) {
+  Image image(size, 3);
+  Random random(5);
+  for (int wave = 0; wave < 8; ++wave) {
+    const float fx = random.uniform(-0.8f, 0.8f), fy = random.uniform(-0.8f, 0.8f);
+    for (int c = 0; c < 3; ++c) {
+      const float phase = random.uniform(0.0f, 6.28f);
+      for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x)
+          image.at(x, y)[c] +=
+              std::sin(fx * static_cast<float>(x) + fy * static_cast<float>(y) + phase) +
+              0.3f * random.normal();
+    }
+  }
+  return image;
+}
+
+TEST(PixelSearch, FeatureDistancesNeverExceedAndMostlyHoldTheNeighbourhoods) {
+  const Level level = make_levels(waves({48, 40}), 1).front();
+  const int radius = 3;
+  const auto features = make_features(level, make_projection(level, radius, Random(1)));
+  const Reference reference(level, radius);
+  const auto weights = gaussian_weights(radius);
+  const Image padded = mirrored(level.colours, radius);
+  double projected = 0, whole = 0;
+  Random random(2);
+  for (int trial = 0; trial < 300; ++trial) {
+    const int a = static_cast<int>(random.below(static_cast<std::uint32_t>(level.count())));
+    const int b = static_cast<int>(random.below(static_cast<std::uint32_t>(level.count())));
+    std::vector<Known> about;
+    auto weight = weights.begin();
+    for (int dy = -radius; dy <= radius; ++dy)
+      for (int dx = -radius; dx <= radius; ++dx)
+        about.push_back(
+            {reference.offset(dx, dy), *weight++,
+             padded.at(level.point(a).x + radius + dx, level.point(a).y + radius + dy)});
+    const auto exact = static_cast<double>(reference.error(about, level.point(b)));
+    const auto near = static_cast<double>(squared_distance(features[static_cast<std::size_t>(a)],
+                                                           features[static_cast<std::size_t>(b)]));
+    EXPECT_LE(near, exact * 1.0001 + 1e-5);
+    EXPECT_NEAR(static_cast<double>(reference.errors(about)[static_cast<std::size_t>(b)]), exact,
+                1e-4 * exact + 1e-5);
+    projected += near;
+    whole += exact;
+  }
+  EXPECT_GT(projected, 0.7 * whole);
+}
+
+TEST(PixelSearch, SimilarSamplesAreNearlyTheNearest) {
+  const Level level = make_levels(waves({56, 48}), 1).front();
+  const auto features = make_features(level, make_projection(level, 3, Random(1)));
+  const int count = 4, apart = 3;
+  const auto similar = similar_samples(level, features, count, apart, Random(3));
+  const auto distance = [&](int a, int b) {
+    return static_cast<double>(std::sqrt(squared_distance(features[static_cast<std::size_t>(a)],
+                                                          features[static_cast<std::size_t>(b)])));
+  };
+  double found = 0, best = 0;
+  for (int s = 0; s < level.count(); ++s) {
+    const auto* list = similar.data() + static_cast<std::size_t>(s * count);
+    EXPECT_EQ(list[0], level.point(s));
+    std::vector<double> all;
+    for (int other = 0; other < level.count(); ++other) {
+      const Point p = level.point(s), q = level.point(other);
+      if (std::abs(p.x - q.x) >= apart || std::abs(p.y - q.y) >= apart)
+        all.push_back(distance(s, other));
+    }
+    std::partial_sort(all.begin(), all.begin() + count - 1, all.end());
+    std::set<int> seen;
+    for (int i = 1; i < count; ++i) {
+      const Point p = level.point(s), q = list[i];
+      EXPECT_TRUE(std::abs(p.x - q.x) >= apart || std::abs(p.y - q.y) >= apart);
+      EXPECT_TRUE(seen.insert(level.index(q)).second);
+      const double here = distance(s, level.index(q));
+      EXPECT_GE(here, all[static_cast<std::size_t>(i - 1)] * 0.9999);
+      found += here;
+      best += all[static_cast<std::size_t>(i - 1)];
+    }
+  }
+  RecordProperty("factor", std::to_string(found / best));
+  EXPECT_LE(found, 1.15 * best);
+}
+
+/// The mean distance from a result's neighbourhoods to the exemplar's nearest ones.
+double misfit(const Canvas& canvas, const Level& level, int radius) {
+  const Reference reference(level, radius);
+  const auto weights = gaussian_weights(radius);
+  double sum = 0;
+  for (int y = 0; y < canvas.size.height; ++y)
+    for (int x = 0; x < canvas.size.width; ++x) {
+      std::vector<Known> about;
+      for (int dy = -radius; dy <= radius; ++dy)
+        for (int dx = -radius; dx <= radius; ++dx) {
+          int near_x = x + dx, near_y = y + dy;
+          if (!canvas.wrap(near_x, near_y)) continue;
+          const Point p = canvas.at(near_x, near_y);
+          about.push_back(
+              {reference.offset(dx, dy),
+               weights[static_cast<std::size_t>((dy + radius) * (2 * radius + 1) + dx + radius)],
+               level.colours.at(p.x, p.y)});
+        }
+      const auto errors = reference.errors(about);
+      sum += std::sqrt(static_cast<double>(*std::min_element(errors.begin(), errors.end())));
+    }
+  return sum / canvas.count();
+}
+
+TEST(PixelSearch, CoherenceLosesLittleAgainstExact) {
+  const Image exemplar = waves({48, 48});
+  const Level level = make_levels(exemplar, 1).front();
+  for (const auto method : {lefebvre_hoppe, wei_levoy, efros_leung}) {
+    double loss[2];
+    for (const PixelSearch search : {PixelSearch::coherence, PixelSearch::exact}) {
+      PixelParams params;
+      params.search = search;
+      const Canvas canvas = method(params, exemplar, {{48, 48}, Tile::none}, Random(1), {});
+      loss[static_cast<int>(search)] = misfit(canvas, level, params.radius);
+    }
+    RecordProperty("coherence", std::to_string(loss[0]));
+    RecordProperty("exact", std::to_string(loss[1]));
+    printf("misfit coherence %.4f exact %.4f ratio %.3f\n", loss[0], loss[1], loss[0] / loss[1]);
+    EXPECT_LE(loss[0], 1.5 * loss[1]);
+  }
+}
+
+}  // namespace
+}  // namespace gramloom::pixel
