@@ -32,7 +32,9 @@ class Growth {
     };
     const Point from{at(level_.colours.width - seed.width),
                      at(level_.colours.height - seed.height)};
-    const Point to{(canvas_.size.width - seed.width) / 2, (canvas_.size.height - seed.height) / 2};
+    // On the seam where the result tiles, so that the last pixels to meet lie elsewhere.
+    const Point to{tiles_x(canvas_.tile) ? 0 : (canvas_.size.width - seed.width) / 2,
+                   tiles_y(canvas_.tile) ? 0 : (canvas_.size.height - seed.height) / 2};
     for (int y = 0; y < seed.height; ++y)
       for (int x = 0; x < seed.width; ++x) fill(to.x + x, to.y + y, {from.x + x, from.y + y});
   }
@@ -62,18 +64,17 @@ class Growth {
     Random random = random_.stream(pixel);
     const auto near = neighbourhood(pixel);
     const int x = x_of(pixel), y = y_of(pixel);
-    if (params_.search == PixelSearch::exact) {
-      const auto errors = reference_.errors(near);
-      fill(x, y, level_.point(static_cast<int>(pick(errors, params_.tolerance, random))));
-      return;
+    if (params_.search == PixelSearch::coherence) {
+      const auto candidates = coherent_candidates(canvas_, known_, level_, similar_, x, y);
+      std::vector<float> errors;
+      for (const Point p : candidates) errors.push_back(reference_.error(near, p));
+      if (fits_at_all(errors, near)) {
+        fill(x, y, candidates[pick(errors, params_.tolerance, random)]);
+        return;
+      }
     }
-    auto candidates = coherent_candidates(canvas_, known_, level_, similar_, x, y);
-    if (candidates.empty())  // every source about ends at the exemplar's edge
-      candidates.push_back(
-          level_.point(static_cast<int>(random.below(static_cast<std::uint32_t>(level_.count())))));
-    std::vector<float> errors;
-    for (const Point p : candidates) errors.push_back(reference_.error(near, p));
-    fill(x, y, candidates[pick(errors, params_.tolerance, random)]);
+    const auto errors = reference_.errors(near);
+    fill(x, y, level_.point(static_cast<int>(pick(errors, params_.tolerance, random))));
   }
 
   const Canvas& canvas() const { return canvas_; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <vector>
 
 #include "core/image.h"
@@ -33,6 +34,15 @@ struct Level {
   /// p, or the sample of the edge that is nearest to it.
   Point nearest(Point p) const {
     return {std::clamp(p.x, 0, colours.width - 1), std::clamp(p.y, 0, colours.height - 1)};
+  }
+  /// p, or its mirror image where it lies outside.
+  Point mirrored(Point p) const {
+    return {mirrored(p.x, colours.width), mirrored(p.y, colours.height)};
+  }
+  static int mirrored(int x, int size) {
+    const int period = std::max(1, 2 * size - 2);
+    x = std::abs(x) % period;
+    return x < size ? x : period - x;
   }
   bool contains(Point p) const {
     return p.x >= 0 && p.y >= 0 && p.x < colours.width && p.y < colours.height;

@@ -8,6 +8,10 @@
 namespace gramloom::pixel {
 namespace {
 
+/// The colour beyond the edges: far from all others, whose variance is 1, so that a neighbourhood
+/// that leaves the exemplar loses to every one that doesn't.
+constexpr float outside = 100;
+
 /// errors[i] += weight · (values[i] − wanted)²
 GRAMLOOM_SIMD void add_errors(const float* values, float wanted, float weight, int count,
                               float* errors) {
@@ -15,10 +19,15 @@ GRAMLOOM_SIMD void add_errors(const float* values, float wanted, float weight, i
     errors[i] += weight * ((values[i] - wanted) * (values[i] - wanted));
 }
 
-/// The channels of an image, each as an image of its own.
-std::vector<Image> planes_of(const Image& image) {
+/// The channels of an image, each as an image of its own with a border.
+std::vector<Image> planes_of(const Image& image, int border) {
   std::vector<Image> planes;
-  for (int c = 0; c < image.channels; ++c) planes.push_back(extract_channels(image, c, 1));
+  for (int c = 0; c < image.channels; ++c) {
+    Image plane(image.width + 2 * border, image.height + 2 * border, 1, outside);
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) *plane.at(x + border, y + border) = image.at(x, y)[c];
+    planes.push_back(std::move(plane));
+  }
   return planes;
 }
 
@@ -28,7 +37,7 @@ Reference::Reference(const Level& level, int reach)
     : size_(level.colours.size()),
       step_(level.step),
       border_(reach * level.step),
-      planes_(planes_of(mirrored(level.colours, border_))) {}
+      planes_(planes_of(level.colours, border_)) {}
 
 std::ptrdiff_t Reference::offset(int dx, int dy) const {
   return (static_cast<std::ptrdiff_t>(dy) * planes_.front().width + dx) * step_;
@@ -50,7 +59,9 @@ float Reference::error(std::span<const Known> neighbourhood, Point p) const {
 std::vector<float> Reference::errors(std::span<const Known> neighbourhood) const {
   const auto width = static_cast<std::size_t>(size_.width);
   std::vector<float> errors(width * static_cast<std::size_t>(size_.height), 0.0f);
-  parallel_for(size_.height, 32, [&](std::int64_t begin, std::int64_t end) {
+  const std::size_t row_work = width * planes_.size() * neighbourhood.size() + 1;
+  const auto rows = static_cast<std::int64_t>(1 + (std::size_t{1} << 19) / row_work);
+  parallel_for(size_.height, rows, [&](std::int64_t begin, std::int64_t end) {
     for (auto y = begin; y < end; ++y)
       for (std::size_t c = 0; c < planes_.size(); ++c)
         for (const Known& known : neighbourhood)
@@ -59,6 +70,12 @@ std::vector<float> Reference::errors(std::span<const Known> neighbourhood) const
                      errors.data() + static_cast<std::size_t>(y) * width);
   });
   return errors;
+}
+
+bool fits_at_all(std::span<const float> errors, std::span<const Known> neighbourhood) {
+  float weight = 0;
+  for (const Known& known : neighbourhood) weight += known.weight;
+  return std::any_of(errors.begin(), errors.end(), [&](float e) { return e <= 2 * weight; });
 }
 
 std::size_t pick(std::span<const float> errors, double tolerance, Random& random) {

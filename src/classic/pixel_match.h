@@ -17,8 +17,9 @@ struct Known {
   const float* colour;
 };
 
-/// A level of the exemplar against which neighbourhoods are compared value by value. Beyond its
-/// edges it is mirrored, so that every sample is a candidate.
+/// A level of the exemplar against which neighbourhoods are compared value by value. Those that
+/// leave the exemplar have a great error: they are taken only where none stays inside, as in an
+/// exemplar smaller than the neighbourhood.
 class Reference {
  public:
   /// reach: how far neighbourhoods extend, in pixels of the level.
@@ -36,8 +37,13 @@ class Reference {
   Size size_;
   int step_;
   int border_;
-  std::vector<Image> planes_;  // one channel each, with a mirrored border
+  std::vector<Image> planes_;  // one channel each, with a border
 };
+
+/// Whether the least error is below that of pixels taken at random: 2 per unit of weight, since the
+/// variance of the colours is 1. Where it is not, every candidate leaves the exemplar or belongs
+/// elsewhere, and the search must go beyond them.
+bool fits_at_all(std::span<const float> errors, std::span<const Known> neighbourhood);
 
 /// The index of an error, at random among those at most (1 + tolerance) times the least.
 std::size_t pick(std::span<const float> errors, double tolerance, Random& random);

@@ -30,35 +30,50 @@ class Scan {
         random_(random),
         canvas_(canvas),
         known_(canvas.source.size(), true) {
-    if (params.search == PixelSearch::coherence)
+    if (params.search == PixelSearch::coherence && parent)
       similar_ = make_similar(params, level, random.stream(1));
   }
 
-  void choose(int x, int y) {
-    Random random = random_.stream(canvas_.index(x, y) + 2);
+  /// whole: compare the whole square about the pixel, not the causal half.
+  void choose(int x, int y, bool whole) {
+    Random random = random_.stream(2 * canvas_.index(x, y) + whole + 2);
+    const auto about = neighbourhood(x, y, whole);
     const auto above = parent_ ? parents(x, y) : std::vector<Known>{};
-    const auto before = causal(x, y);
-    if (params_.search == PixelSearch::exact) {
-      auto errors = reference_.errors(before);
-      if (parent_) add_parent_errors(parent_->reference.errors(above), x, y, errors);
-      canvas_.at(x, y) = level_.point(static_cast<int>(pick(errors, params_.tolerance, random)));
-      return;
+    // The coarsest level is small, and all others follow it: it is always searched in full.
+    if (params_.search == PixelSearch::coherence && parent_) {
+      const auto candidates = coherent_candidates(canvas_, known_, level_, similar_, x, y);
+      std::vector<float> errors;
+      for (const Point p : candidates)
+        errors.push_back(reference_.error(about, p) +
+                         parent_->reference.error(above, parent_sample(p, x, y)));
+      if (fits_at_all(errors, about)) {
+        canvas_.at(x, y) = candidates[pick(errors, params_.tolerance, random)];
+        return;
+      }
     }
-    auto candidates = coherent_candidates(canvas_, known_, level_, similar_, x, y);
-    std::vector<float> errors;
-    for (const Point p : candidates)
-      errors.push_back(reference_.error(before, p) +
-                       (parent_ ? parent_->reference.error(above, parent_sample(p, x, y)) : 0.0f));
-    if (!candidates.empty()) canvas_.at(x, y) = candidates[pick(errors, params_.tolerance, random)];
+    auto errors = reference_.errors(about);
+    if (parent_) add_parent_errors(parent_->reference.errors(above), x, y, errors);
+    canvas_.at(x, y) = level_.point(static_cast<int>(pick(errors, params_.tolerance, random)));
+  }
+
+  /// Where the scan did not know the pixels beyond the seam yet, and goes over the result again.
+  bool near_seam(int x, int y) const {
+    const int band = 2 * params_.radius;
+    return (tiles_x(canvas_.tile) && (x < band || x >= canvas_.size.width - band)) ||
+           (tiles_y(canvas_.tile) && (y < band || y >= canvas_.size.height - band));
   }
 
  private:
-  /// The L-shaped stencil: whole rows above, and the left part of the pixel's own.
-  std::vector<Known> causal(int x, int y) const {
+  /// The L-shaped stencil (whole rows above, and the left part of the pixel's own), or the whole
+  /// square about the pixel.
+  std::vector<Known> neighbourhood(int x, int y, bool whole) const {
     std::vector<Known> found;
-    for (int dy = -params_.radius; dy <= 0; ++dy)
+    for (int dy = -params_.radius; dy <= params_.radius; ++dy)
       for (int dx = -params_.radius; dx <= params_.radius; ++dx) {
-        if (dy == 0 && dx == 0) return found;
+        if (dy == 0 && dx == 0) {
+          if (whole) continue;
+          return found;
+        }
         int near_x = x + dx, near_y = y + dy;
         if (!canvas_.wrap(near_x, near_y)) continue;
         const Point p = canvas_.at(near_x, near_y);
@@ -131,7 +146,12 @@ Canvas wei_levoy(const PixelParams& params, const Image& exemplar, const Target&
               random.stream((std::uint64_t{1} << 40) + i));
     for (int y = 0; y < canvas.size.height; ++y) {
       control.step(done++, all);
-      for (int x = 0; x < canvas.size.width; ++x) scan.choose(x, y);
+      for (int x = 0; x < canvas.size.width; ++x) scan.choose(x, y, false);
+    }
+    for (int y = 0; y < canvas.size.height; ++y) {
+      control.step(done, all);
+      for (int x = 0; x < canvas.size.width; ++x)
+        if (scan.near_seam(x, y)) scan.choose(x, y, true);
     }
   }
   control.step(all, all);
