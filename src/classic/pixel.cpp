@@ -41,4 +41,26 @@ Texture synthesise(const PixelParams& params, const Image& exemplar, const Targe
   return {pixel::colours_of(sources(params, exemplar, target, random, control), exemplar), {}};
 }
 
+Cost estimate(const PixelParams& params, Size exemplar, int channels, const Target& target) {
+  const double from = static_cast<double>(exemplar.width) * exemplar.height;
+  const double to = static_cast<double>(target.size.width) * target.size.height;
+  const double compared = std::min(channels, 4);
+  const double candidates = params.candidates;
+  const double window = std::pow(2 * params.radius + 1, 2);
+
+  Cost cost;
+  // Levels, features and lists of like samples while they are made; canvases, colours and result.
+  cost.bytes = from * (8 * channels + 16 * compared + 64 + 20 * candidates + 8) +
+               to * (4 * channels + 4 * compared + 40) + 5e6;
+  // Fitted to runs on two cores.
+  const double trials = params.algorithm == PixelAlgorithm::lefebvre_hoppe ? params.passes : 1;
+  if (params.search == PixelSearch::exact)
+    cost.seconds = trials * to * from * window * compared / 1e10;
+  else if (params.algorithm == PixelAlgorithm::lefebvre_hoppe)
+    cost.seconds = 1e-6 * candidates * from + 1.3e-7 * trials * candidates * to;
+  else
+    cost.seconds = 1e-6 * candidates * from + 6e-8 * window * candidates * to;
+  return cost;
+}
+
 }  // namespace gramloom

@@ -21,6 +21,32 @@ template <>
 inline constexpr auto enum_names<PixelSearch> = std::to_array<std::string_view>({"coherence",
                                                                                  "exact"});
 
+/// Non-parametric sampling: every pixel of the result is a pixel of the exemplar whose
+/// neighbourhood there is like the pixel's own. Three orders in which pixels are chosen:
+///
+/// lefebvre_hoppe  Lefebvre & Hoppe 2005, "Parallel controllable texture synthesis". Coarse to
+///   fine, all pixels at once: the sources of the level above are refined, displaced (jitter) and
+///   corrected in sub-passes. Departures: the coarsest level starts from blocks that fit, not from
+///   1×1 pixels and jitter (or regular structure is lost); a pyramid of twice the density in place
+///   of the stack; 16 principal components of a Gaussian-weighted window, not 6; parallel over
+///   threads with the same bytes for any number of them.
+/// wei_levoy  Wei & Levoy 2000, "Fast texture synthesis using tree-structured vector quantization".
+///   In scan order, by an L-shaped stencil and the whole neighbourhood in the level above.
+///   Departures: finer levels start from the level above, not from noise; only axes that tile wrap
+///   around, and pixels near their seams are chosen once more, by their whole neighbourhood.
+/// efros_leung  Efros & Leung 1999, "Texture synthesis by non-parametric sampling". From a seed
+///   outwards, pixels with most known neighbours first, one level, Gaussian weights. Departure:
+///   the seed lies on the seam of axes that tile.
+///
+/// Searches: "exact" compares values at every pixel of the exemplar; minutes for 128². "coherence"
+/// tries the sources that continue those of the 3×3 neighbours and the pixels like them
+/// (k-coherence: Ashikhmin 2001; Tong et al. 2002), found once for each level by random partitions
+/// of the principal components. Where none of them fits at all, wei_levoy and efros_leung search
+/// in full. Neighbourhoods that leave the exemplar are used only where no others are left (in
+/// lefebvre_hoppe's corrections the exemplar is mirrored there instead).
+///
+/// Exemplars of any size from 1×1 and of 1 to 64 channels; of more than 4, the 4 principal
+/// components are compared.
 struct PixelParams {
   static constexpr std::string_view kind = "pixel";
   static constexpr std::string_view summary =
@@ -50,7 +76,8 @@ struct PixelParams {
               {1, 15}},
         Field{"levels",
               &PixelParams::levels,
-              "levels of the pyramid, 0: down to an exemplar of about 20 pixels (not efros_leung)",
+              "levels of the pyramid, 0: until the shorter side has 20 to 39 pixels (not "
+              "efros_leung)",
               "",
               {0, 12}},
         Field{"candidates",
@@ -82,9 +109,13 @@ struct PixelParams {
   }
 };
 
+/// The same bytes for any number of threads. Throws ConfigError for a parameter out of range, Error
+/// for an exemplar that is empty, not finite or of more than 64 channels or a size without pixels,
+/// Interrupted when `control` asks to stop.
 Texture synthesise(const PixelParams& params, const Image& exemplar, const Target& target,
                    Random random, const Control& control);
 
+/// Fitted to measurements: within a factor of 2 or so.
 Cost estimate(const PixelParams& params, Size exemplar, int channels, const Target& target);
 
 }  // namespace gramloom

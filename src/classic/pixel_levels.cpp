@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/threads.h"
+#include "core/colour_pca.h"
 
 namespace gramloom::pixel {
 namespace {
@@ -17,56 +17,19 @@ cv::Mat view(Image& image) {
 }
 cv::Mat view(const Image& image) { return view(const_cast<Image&>(image)); }
 
-std::vector<double> channel_means(const Image& image) {
-  const auto channels = static_cast<std::size_t>(image.channels);
-  std::vector<double> means(channels, 0.0);
-  for (std::size_t i = 0; i < image.pixels.size(); ++i)
-    means[i % channels] += static_cast<double>(image.pixels[i]);
-  for (double& mean : means)
-    mean *= static_cast<double>(channels) / static_cast<double>(image.pixels.size());
-  return means;
-}
-
-cv::Mat channel_covariance(const Image& image, const std::vector<double>& means) {
-  const int n = image.channels;
-  const int pixels = image.width * image.height;
-  cv::Mat covariance = cv::Mat::zeros(n, n, CV_64F);
-  std::vector<double> centred(means.size());
-  for (int p = 0; p < pixels; ++p) {
-    const float* values = image.pixels.data() + static_cast<std::size_t>(p) * means.size();
-    for (std::size_t c = 0; c < means.size(); ++c)
-      centred[c] = static_cast<double>(values[c]) - means[c];
-    for (int a = 0; a < n; ++a)
-      for (int b = 0; b <= a; ++b)
-        covariance.at<double>(a, b) +=
-            centred[static_cast<std::size_t>(a)] * centred[static_cast<std::size_t>(b)];
-  }
-  cv::completeSymm(covariance, true);
-  return covariance / pixels;
-}
-
-/// The exemplar's channels, or their 4 principal components, with mean 0 and total variance 1.
+/// The exemplar along its principal axes of colour, at most 4, with mean 0 and total variance 1.
 Image comparison_colours(const Image& exemplar) {
-  const auto means = channel_means(exemplar);
-  const cv::Mat covariance = channel_covariance(exemplar, means);
-  const double variance = cv::trace(covariance)[0];
+  const ColourPca pca = colour_pca(exemplar);
+  double variance = 0;
+  for (const float deviation : pca.deviation)
+    variance += static_cast<double>(deviation) * static_cast<double>(deviation);
   const double scale = variance > 0 ? 1 / std::sqrt(variance) : 0;
-  cv::Mat axes = cv::Mat::eye(exemplar.channels, exemplar.channels, CV_64F);
-  if (exemplar.channels > most_channels) {
-    cv::Mat values;
-    cv::eigen(covariance, values, axes);
-  }
-  Image result(exemplar.size(), std::min(exemplar.channels, most_channels));
-  const auto from = static_cast<std::size_t>(exemplar.channels);
-  const auto to = static_cast<std::size_t>(result.channels);
-  for (std::size_t p = 0; p < result.pixels.size() / to; ++p)
-    for (std::size_t c = 0; c < to; ++c) {
-      double sum = 0;
-      for (std::size_t i = 0; i < from; ++i)
-        sum += axes.at<double>(static_cast<int>(c), static_cast<int>(i)) *
-               (static_cast<double>(exemplar.pixels[p * from + i]) - means[i]);
-      result.pixels[p * to + c] = static_cast<float>(sum * scale);
-    }
+  Image result =
+      extract_channels(whitened(exemplar, pca), 0, std::min(exemplar.channels, most_channels));
+  const auto channels = static_cast<std::size_t>(result.channels);
+  for (std::size_t i = 0; i < result.pixels.size(); ++i)
+    result.pixels[i] *=
+        static_cast<float>(static_cast<double>(pca.deviation[i % channels]) * scale);
   return result;
 }
 

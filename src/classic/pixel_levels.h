@@ -49,8 +49,8 @@ struct Level {
   }
 };
 
-/// Finest first. Of more than 4 channels, the 4 principal components are kept: only comparisons
-/// see them. The values are scaled so that their variance, summed over channels, is 1.
+/// Finest first. Only comparisons see the colours: along the exemplar's principal axes, the first
+/// 4 where it has more channels, scaled so that their variance, summed over channels, is 1.
 std::vector<Level> make_levels(const Image& exemplar, int count);
 
 /// `asked`, or if that is 0 as many as bring the shorter side of both down to 20 to 39 pixels;
