@@ -38,12 +38,12 @@ inline constexpr auto enum_names<PixelSearch> = std::to_array<std::string_view>(
 ///   outwards, pixels with most known neighbours first, one level, Gaussian weights. Departure:
 ///   the seed lies on the seam of axes that tile.
 ///
-/// Searches: "exact" compares values at every pixel of the exemplar; minutes for 128². "coherence"
-/// tries the sources that continue those of the 3×3 neighbours and the pixels like them
-/// (k-coherence: Ashikhmin 2001; Tong et al. 2002), found once for each level by random partitions
-/// of the principal components. Where none of them fits at all, wei_levoy and efros_leung search
-/// in full. Neighbourhoods that leave the exemplar are used only where no others are left (in
-/// lefebvre_hoppe's corrections the exemplar is mirrored there instead).
+/// Searches: "exact" compares values at every pixel of the exemplar: about half a minute for 128²
+/// from 128². "coherence" tries the sources that continue those of the 3×3 neighbours and the
+/// pixels like them (k-coherence: Ashikhmin 2001; Tong et al. 2002), found once for each level by
+/// random partitions of the principal components. Where none of them fits at all, wei_levoy and
+/// efros_leung search in full. Neighbourhoods that leave the exemplar are used only where no others
+/// are left (in lefebvre_hoppe's corrections the exemplar is mirrored there instead).
 ///
 /// Exemplars of any size from 1×1 and of 1 to 64 channels; of more than 4, the 4 principal
 /// components are compared.
