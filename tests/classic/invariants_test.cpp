@@ -7,6 +7,7 @@
 #include "classic/histogram.h"
 #include "classic/markov.h"
 #include "classic/phase.h"
+#include "classic/pixel.h"
 #include "classic/pyramid.h"
 #include "core/error.h"
 #include "core/threads.h"
@@ -83,8 +84,8 @@ struct CausalMarkov : MarkovParams {
 };
 
 // The one list: a method added here is held to all of it.
-using Methods =
-    testing::Types<HistogramParams, MarkovParams, CausalMarkov, PhaseParams, PyramidParams>;
+using Methods = testing::Types<HistogramParams, MarkovParams, CausalMarkov, PhaseParams,
+                               PyramidParams, PixelParams>;
 
 struct KindNames {
   template <class Params>
