@@ -8,3 +8,6 @@
 #else
 #define GRAMLOOM_SIMD
 #endif
+
+/// For what a GRAMLOOM_SIMD function calls.
+#define GRAMLOOM_INLINE inline __attribute__((always_inline))
