@@ -26,10 +26,14 @@ double Canvas::frequency(int axis, double per_feature, int multiple) const {
   return count(axis, per_feature, multiple) / static_cast<double>(extent(axis));
 }
 
-Lattice<2> Canvas::grid(std::uint32_t layer, double columns, double rows, int row_multiple) const {
-  Lattice<2> result = lattice<2>(layer, {columns, rows});
-  result.frequency[1] = static_cast<float>(frequency(1, rows, row_multiple));
+Lattice<2> Canvas::grid(std::uint32_t layer, double columns, double rows, int column_multiple,
+                        int row_multiple) const {
+  Lattice<2> result;
+  result.frequency = {static_cast<float>(frequency(0, columns, column_multiple)),
+                      static_cast<float>(frequency(1, rows, row_multiple))};
+  if (wraps(0)) result.period[0] = static_cast<int>(count(0, columns, column_multiple));
   if (wraps(1)) result.period[1] = static_cast<int>(count(1, rows, row_multiple));
+  result.seed = random.stream(layer).bits();
   return result;
 }
 

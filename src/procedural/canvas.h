@@ -57,8 +57,9 @@ struct Canvas {
     return lattice<D>(layer, filled<D>(per_feature));
   }
 
-  /// Cells of a pattern: columns and rows a feature; rows in whole multiples of `row_multiple`.
-  Lattice<2> grid(std::uint32_t layer, double columns, double rows, int row_multiple = 1) const;
+  /// Cells of a pattern: columns and rows a feature, in whole multiples where the picture tiles.
+  Lattice<2> grid(std::uint32_t layer, double columns, double rows, int column_multiple = 1,
+                  int row_multiple = 1) const;
 
   template <int D>
   Fractal<D> fractal(std::uint32_t layer, std::array<double, D> per_feature, int octaves,

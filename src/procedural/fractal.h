@@ -28,6 +28,12 @@ GRAMLOOM_INLINE Floats fractal_sum(const Fractal<D>& fractal, const Point<D>& p,
   return sum;
 }
 
+/// The same over total: within ± 1.
+template <int D>
+GRAMLOOM_INLINE Floats unit_sum(const Fractal<D>& fractal, const Point<D>& p) {
+  return fractal_sum(fractal, p) / fractal.total;
+}
+
 /// Σ amplitude · |noise|: in [0, total], with creases where the noise is zero (Perlin 1985).
 template <int D, class Basis = ImprovedNoise<>>
 GRAMLOOM_INLINE Floats turbulence(const Fractal<D>& fractal, const Point<D>& p,
@@ -38,6 +44,9 @@ GRAMLOOM_INLINE Floats turbulence(const Fractal<D>& fractal, const Point<D>& p,
   return sum;
 }
 
+/// (1 − |noise|)²: 1 on a ridge.
+GRAMLOOM_INLINE Floats ridge_of(Floats noise) { return square(1 - min(abs(noise), 1.0f)); }
+
 /// Σ amplitude · (1 − |noise|)², each octave weighted by the one before: sharp ridges that branch
 /// (Musgrave 1994, "Texturing and Modeling", with offset 1); in [0, total].
 template <int D, class Basis = ImprovedNoise<>>
@@ -46,7 +55,7 @@ GRAMLOOM_INLINE Floats ridged(const Fractal<D>& fractal, const Point<D>& p,
   Floats sum{};
   Floats weight = splat(1);
   for (std::size_t k = 0; k < static_cast<std::size_t>(fractal.octaves); ++k) {
-    const Floats ridge = square(1 - min(abs(noise(fractal.lattice[k], p, basis)), 1.0f)) * weight;
+    const Floats ridge = ridge_of(noise(fractal.lattice[k], p, basis)) * weight;
     sum += fractal.amplitude[k] * ridge;
     weight = clamp(2 * ridge);
   }
@@ -63,9 +72,10 @@ struct Warp {
 template <int D>
 GRAMLOOM_INLINE Point<D> warped(const Warp<D>& warp, const Point<D>& p) {
   Point<D> moved;
+#pragma GCC unroll 1
   for (int d = 0; d < D; ++d) {
     const Fractal<D>& fractal = warp.axis[static_cast<std::size_t>(d)];
-    moved.at[d] = p.at[d] + warp.amount / fractal.total * fractal_sum(fractal, p);
+    moved.at[d] = p.at[d] + warp.amount * unit_sum(fractal, p);
   }
   return moved;
 }

@@ -17,10 +17,22 @@ struct NoiseShader {
   float contrast;
   float levels;
 
+  // As fractal_sum, turbulence and ridged, in one loop: noise of so many kinds is much code.
   GRAMLOOM_INLINE Floats value(const Point<D>& p) const {
-    if (sum == NoiseSum::fractal) return fractal_sum(fractal, p, basis) / fractal.total;
-    if (sum == NoiseSum::turbulence) return 2 * turbulence(fractal, p, basis) / fractal.total - 1;
-    return 2 * ridged(fractal, p, basis) / fractal.total - 1;
+    Floats total{};
+    Floats weight = splat(1);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(fractal.octaves); ++k) {
+      const Floats n = noise(fractal.lattice[k], p, basis);
+      Floats term = n;
+      if (sum == NoiseSum::turbulence) term = 2 * abs(n) - 1;
+      if (sum == NoiseSum::ridged) {
+        const Floats ridge = ridge_of(n) * weight;
+        term = 2 * ridge - 1;
+        weight = clamp(2 * ridge);
+      }
+      total += fractal.amplitude[k] * term;
+    }
+    return total / fractal.total;
   }
   GRAMLOOM_INLINE Surface operator()(const Point<4>& q) const {
     Point<D> p;

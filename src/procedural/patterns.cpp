@@ -1,5 +1,8 @@
 #include "procedural/patterns.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "procedural/fractal.h"
 #include "procedural/grid.h"
 #include "procedural/ramp.h"
@@ -145,7 +148,7 @@ Texture paint(const Hexagons& params, const Canvas& canvas) {
 }
 
 Texture paint(const Dots& params, const Canvas& canvas) {
-  const DotsShader shader{canvas.grid(1, 1, 1, params.stagger > 0 ? 2 : 1),
+  const DotsShader shader{canvas.grid(1, 1, 1, 1, params.stagger > 0 ? 2 : 1),
                           static_cast<float>(params.stagger),
                           static_cast<float>(params.radius),
                           static_cast<float>(params.jitter),

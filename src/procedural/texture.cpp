@@ -11,6 +11,9 @@ namespace gramloom {
 
 namespace {
 
+/// Depth 0 is here: at an integer, every octave of noise would lie on a plane of its lattice.
+constexpr float off_lattice = 0.381966f;
+
 /// How many dimensions a texture has: a flat one 2, a solid one 3, noise as many as it is told.
 int dimensions(const ProceduralTexture& texture) {
   return std::visit(
@@ -97,6 +100,7 @@ Texture synthesise(const ProceduralParams& params, const Target& target, Random 
     const bool fourth = dimensions(params.texture) == 4;
     place_plane(canvas, params, params.depth + (fourth ? 0 : moved));
     canvas.origin[3] = static_cast<float>(fourth ? moved : 0);
+    for (std::size_t d = 2; d < 4; ++d) canvas.origin[d] += off_lattice;
     Texture picture = std::visit([&](const auto& t) { return paint(t, canvas); }, params.texture);
     if (params.frames > 1) result.maps[fmt::format("frame_{:04}", frame + 1)] = picture.image;
     if (frame > 0) continue;
