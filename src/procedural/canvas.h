@@ -68,7 +68,12 @@ struct Canvas {
     result.octaves = octaves;
     double amplitude = 1;
     for (std::size_t k = 0; k < static_cast<std::size_t>(octaves); ++k) {
-      result.lattice[k] = lattice<D>(layer * 64 + static_cast<std::uint32_t>(k), per_feature);
+      const std::uint32_t stream = layer * 64 + static_cast<std::uint32_t>(k);
+      result.lattice[k] = lattice<D>(stream, per_feature);
+      // Lattices of all octaves would meet at the first one's points, where all noise is zero.
+      Random shift = random.stream(stream).stream(1);
+      if (k > 0)
+        for (float& offset : result.lattice[k].offset) offset = shift.uniform();
       result.amplitude[k] = static_cast<float>(amplitude);
       result.total += result.amplitude[k];
       amplitude *= gain;

@@ -11,11 +11,12 @@ namespace gramloom {
 // Lattice noise in one to four dimensions: a value or a gradient at each point with integer
 // coordinates, blended in between. They stay in [−1, 1] (improved noise in 3-D: 1.04).
 
-/// Where the lattice lies: lattice coordinates are point × frequency. Where period > 0, the noise
-/// repeats after that many lattice steps.
+/// Where the lattice lies: lattice coordinates are point × frequency + offset. Where period > 0,
+/// the noise repeats after that many lattice steps.
 template <int D>
 struct Lattice {
   std::array<float, D> frequency{};
+  std::array<float, D> offset{};
   std::array<int, D> period{};
   std::uint32_t seed = 0;
 };
@@ -40,7 +41,7 @@ GRAMLOOM_INLINE LatticeCell<D> lattice_cell(const Lattice<D>& lattice, const Poi
   LatticeCell<D> cell;
   for (int d = 0; d < D; ++d) {
     const auto axis = static_cast<std::size_t>(d);
-    const Floats x = p.at[d] * lattice.frequency[axis];
+    const Floats x = p.at[d] * lattice.frequency[axis] + lattice.offset[axis];
     const Floats below = floor(x);
     cell.offset[d] = x - below;
     cell.corner[d][0] = wrap(to_ints(below), lattice.period[axis]);

@@ -8,17 +8,20 @@
 #include "core/image.h"
 #include "core/progress.h"
 #include "core/random.h"
+#include "procedural/ground.h"
 #include "procedural/masonry.h"
 #include "procedural/minerals.h"
 #include "procedural/noise_texture.h"
 #include "procedural/patterns.h"
+#include "procedural/wood.h"
 
 namespace gramloom {
 
 /// Every texture made from formulas: the one list of them. Each has a `name` that the config
 /// writes, a `summary`, a field list, and a function `paint`.
-using ProceduralTexture = std::variant<Noise, Cellular, Stripes, Checkerboard, Hexagons, Dots,
-                                       Tiles, Brick, StoneWall, Marble, Granite, Stucco>;
+using ProceduralTexture =
+    std::variant<Noise, Cellular, Stripes, Checkerboard, Hexagons, Dots, Tiles, Brick, StoneWall,
+                 Marble, Granite, Stucco, Pebbles, CrackedMud, Grass, Sand, Wood, Planks, Bark>;
 
 /// A texture from formulas: which one, and the settings that all of them share.
 struct ProceduralParams {
