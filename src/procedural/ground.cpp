@@ -127,8 +127,7 @@ struct GrassShader {
           const Floats angle = 0.75f + (1 - combing) * (unit_float(root.id, 3) - 0.5f) +
                                0.12f * (unit_float(root.id, 4) - 0.5f);
           const Floats ax = cos_turns(angle), ay = sin_turns(angle);
-          const Floats length =
-              (0.55f + 0.45f * unit_float(root.id, 5)) * 1.5f / lattice.frequency[0];
+          const Floats length = (0.55f + 0.45f * unit_float(root.id, 5)) * 2 / lattice.frequency[0];
           const Floats along = (rx * ax + ry * ay) / length;
           const Floats bend = 0.5f * (unit_float(root.id, 6) - 0.5f) * length;
           const Floats across = ry * ax - rx * ay - bend * along * along;
@@ -230,7 +229,7 @@ Texture paint(const Grass& params, const Canvas& canvas) {
   for (int layer = 0; layer < params.layers; ++layer) {
     const auto stream = static_cast<std::uint32_t>(100 + layer);
     Lattice<2>& roots = shader.roots[static_cast<std::size_t>(layer)];
-    roots = canvas.lattice<2>(stream, 1.8);
+    roots = canvas.lattice<2>(stream, 2.4);
     Random shift = canvas.random.stream(stream).stream(1);
     for (float& offset : roots.offset) offset = shift.uniform();
   }

@@ -70,8 +70,8 @@ struct Grass {
   static constexpr std::string_view name = "grass";
   static constexpr std::string_view summary = "blades of grass seen from above";
   static constexpr bool solid = false;
-  int layers = 7;
-  double blade_width = 0.055;
+  int layers = 8;
+  double blade_width = 0.10;
   double combing = 0.45;
   double dry = 0.12;
   std::vector<double> colours{0.05, 0.13, 0.03, 0.14, 0.29, 0.07, 0.27, 0.45,

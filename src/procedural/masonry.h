@@ -46,14 +46,14 @@ struct Brick {
   static constexpr std::string_view summary = "a brick wall in running bond";
   static constexpr bool solid = false;
   double aspect = 2.6;
-  double mortar = 0.055;
+  double mortar = 0.07;
   double shift = 0.5;
   double wear = 0.5;
   double variation = 0.8;
   double relief = 0.10;
   std::vector<double> colours{0.34, 0.13, 0.10, 0.55, 0.22, 0.15, 0.64, 0.29,
                               0.19, 0.70, 0.38, 0.26, 0.50, 0.27, 0.22};
-  std::vector<double> mortar_colour{0.68, 0.64, 0.58};
+  std::vector<double> mortar_colour{0.82, 0.79, 0.73};
   static constexpr auto fields() {
     return std::tuple{
         Field{"aspect",

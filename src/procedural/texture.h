@@ -13,6 +13,8 @@
 #include "procedural/minerals.h"
 #include "procedural/noise_texture.h"
 #include "procedural/patterns.h"
+#include "procedural/textile.h"
+#include "procedural/weather.h"
 #include "procedural/wood.h"
 
 namespace gramloom {
@@ -21,7 +23,8 @@ namespace gramloom {
 /// writes, a `summary`, a field list, and a function `paint`.
 using ProceduralTexture =
     std::variant<Noise, Cellular, Stripes, Checkerboard, Hexagons, Dots, Tiles, Brick, StoneWall,
-                 Marble, Granite, Stucco, Pebbles, CrackedMud, Grass, Sand, Wood, Planks, Bark>;
+                 Marble, Granite, Stucco, Pebbles, CrackedMud, Grass, Sand, Wood, Planks, Bark,
+                 Weave, Cloth, Leather, Clouds, Fire, Rust>;
 
 /// A texture from formulas: which one, and the settings that all of them share.
 struct ProceduralParams {

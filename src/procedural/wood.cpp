@@ -16,19 +16,19 @@ struct Trunk {
   Ramp ramp;
 
   GRAMLOOM_INLINE Surface at(Floats radius, const Point<3>& p) const {
-    const Floats phase = radius + curl * (1.6f * unit_sum(bend, p) + 0.25f * unit_sum(waver, p));
+    const Floats phase = radius + curl * (4 * unit_sum(bend, p) + 0.4f * unit_sum(waver, p));
     const Floats ring = floor(phase);
     // cos(R)ᵖᵒʷᵉʳ; but late wood darkens slowly and ends at once, so the wave is pushed to one
     // side.
     const Floats t = phase - ring;
-    const Floats skewed = t < 0.85f ? t * (0.5f / 0.85f) : 0.5f + (t - 0.85f) * (0.5f / 0.15f);
-    const Floats edge = pow(0.5f - 0.5f * cos_turns(skewed), 0.5f * sharpness);
+    const Floats skewed = t < 0.88f ? t * (0.5f / 0.88f) : 0.5f + (t - 0.88f) * (0.5f / 0.12f);
+    const Floats edge = pow(0.5f - 0.5f * cos_turns(skewed), sharpness);
     const Floats year = unit_float(hash(Uints(to_ints(ring)) * 0x9E3779B9u), 1);
     const Floats fibre = unit_sum(fibres, p);
     const Floats pore = smoothstep(0.18f, 0.40f, unit_sum(pores, p)) * (1 - 0.6f * edge);
-    const Floats tone = 0.10f + 0.62f * edge * (0.55f + 0.45f * year) + 0.18f * unit_sum(tint, p) +
+    const Floats tone = 0.12f + 0.75f * edge * (0.6f + 0.4f * year) + 0.18f * unit_sum(tint, p) +
                         grain * 0.22f * fibre;
-    const Floats shade = 1 + grain * (0.14f * fibre - 0.34f * pore);
+    const Floats shade = 1 + grain * (0.35f * fibre - 0.38f * pore);
     return {colour_at(ramp, tone) * shade, 0.75f - 0.25f * grain * pore + 0.1f * fibre};
   }
 };
@@ -44,7 +44,7 @@ Trunk make_trunk(const Canvas& canvas, double rings_per_feature, double sharpnes
   return {static_cast<float>(sharpness),
           static_cast<float>(curl),
           static_cast<float>(grain),
-          canvas.fractal<3>(1, drawn(0.16, 0.07), 2, 0.4),
+          canvas.fractal<3>(1, drawn(0.14, 0.05), 2, 0.4),
           canvas.fractal<3>(2, drawn(0.8, 0.15), 3),
           canvas.fractal<3>(3, drawn(6, 0.25), 3, 0.7),
           canvas.fractal<3>(4, drawn(9, 0.6), 2, 0.7),
