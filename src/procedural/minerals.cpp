@@ -66,13 +66,14 @@ struct GraniteShader {
     const Floats grain = unit_sum(fine, p);
     const Cells big = cells(grains, moved, 1);
     const Point<2> own{{p.at[0] + 9 * unit_float(big.id, 5), p.at[1] + 9 * unit_float(big.id, 6)}};
-    Rgb colour = mineral(big, 0.22f * unit_sum(within, own) + 0.12f * grain);
+    Rgb colour = mineral(big, 0.35f * unit_sum(within, own) + 0.30f * grain);
     // Thin dark seams between grains.
-    colour = colour * (0.72f + 0.28f * smoothstep(0, 0.10f, big.border));
+    colour = colour * (0.84f + 0.16f * smoothstep(0, 0.10f, big.border));
     const Cells flake = cells(flakes, moved, 1);
     const Floats dark = smoothstep(0.0f, 0.10f, flake.border - 0.04f) *
                         to_floats(-Ints(unit_float(flake.id, 3) < mica));
-    colour = mix(colour, mica_colour * (1 + 1.6f * unit_float(flake.id, 4) + grain), 0.94f * dark);
+    colour =
+        mix(colour, mica_colour * (1 + 2.2f * unit_float(flake.id, 4) + 1.5f * grain), 0.9f * dark);
     const Cells speck = cells(specks, moved, 1);
     const Floats small = smoothstep(0.05f, 0.2f, speck.border) *
                          to_floats(-Ints(unit_float(speck.id, 3) < 0.4f * mica));
@@ -130,10 +131,10 @@ Texture paint(const Granite& params, const Canvas& canvas) {
   const auto colours = params.colours.size() / 3;
   for (std::size_t i = 0; i < params.colours.size(); ++i)
     mean[i % 3] += static_cast<float>(params.colours[i]) / static_cast<float>(colours);
-  const GraniteShader shader{canvas.lattice<2>(1, 1.3),
-                             canvas.lattice<2>(2, 2.1),
-                             canvas.lattice<2>(3, 4.5),
-                             canvas.warp<2>(4, 3, 3, 0.18),
+  const GraniteShader shader{canvas.lattice<2>(1, 1.5),
+                             canvas.lattice<2>(2, 2.6),
+                             canvas.lattice<2>(3, 6),
+                             canvas.warp<2>(4, 4, 3, 0.14),
                              canvas.fractal<2>(5, 3, 4, 0.6),
                              canvas.fractal<2>(6, 14, 3, 0.8),
                              static_cast<float>(params.mica),

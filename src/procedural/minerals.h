@@ -65,7 +65,7 @@ struct Granite {
   static constexpr std::string_view summary = "grains of feldspar, quartz and mica";
   static constexpr bool solid = false;
   double mica = 0.3;
-  double contrast = 1;
+  double contrast = 0.8;
   std::vector<double> colours{0.86, 0.83, 0.80, 0.80, 0.66, 0.58, 0.74, 0.56,
                               0.48, 0.62, 0.60, 0.60, 0.50, 0.49, 0.50};
   std::vector<double> mica_colour{0.10, 0.10, 0.11};

@@ -9,7 +9,7 @@
 namespace gramloom {
 
 // Lattice noise in one to four dimensions: a value or a gradient at each point with integer
-// coordinates, blended in between. They stay in [−1, 1] (improved noise in 3-D: 1.04).
+// coordinates, blended in between. They stay in [−1, 1], improved noise within ±1.04.
 
 /// Where the lattice lies: lattice coordinates are point × frequency + offset. Where period > 0,
 /// the noise repeats after that many lattice steps.
@@ -131,9 +131,9 @@ GRAMLOOM_INLINE Floats flip_sign(Floats v, Uints h, int bit) {
 
 /// Perlin 2002, "Improving noise": gradients to the twelve edges of a cube, and 6t⁵ − 15t⁴ + 10t³.
 /// The paper is about 3-D, whose noise stays within ±1.04. Ours besides: in 4-D the 32 edges of the
-/// hypercube, halved; in 2-D eight even directions of which none lies along an axis or a diagonal
-/// (the slice z = 0 of the cube's edges would be lined up with the axes); in 1-D the sixteen slopes
-/// ±1/4 … ±2.
+/// hypercube, times 0.65; in 2-D eight even directions of which none lies along an axis or a
+/// diagonal (the slice z = 0 of the cube's edges would be lined up with the axes); in 1-D the
+/// sixteen slopes ±1/4 … ±2.
 template <class Hash = void>
 struct ImprovedNoise {
   Hash hash_of;
@@ -152,7 +152,7 @@ struct ImprovedNoise {
       const Floats u = select(Ints((h & 31u) < 24u), offset[0], offset[1]);
       const Floats v = select(Ints((h & 31u) < 16u), offset[1], offset[2]);
       const Floats w = select(Ints((h & 31u) < 8u), offset[2], offset[3]);
-      return 0.5f * (flip_sign(u, h, 0) + flip_sign(v, h, 1) + flip_sign(w, h, 2));
+      return 0.65f * (flip_sign(u, h, 0) + flip_sign(v, h, 1) + flip_sign(w, h, 2));
     } else if constexpr (D == 2) {
       const Ints steep = Ints((h & 4u) == 0u);
       const Floats u = select(steep, offset[0], offset[1]);

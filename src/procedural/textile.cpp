@@ -177,7 +177,7 @@ Texture paint(const Cloth& params, const Canvas& canvas) {
 Texture paint(const Leather& params, const Canvas& canvas) {
   const LeatherShader shader{
       canvas.lattice<2>(1, {1, 1.25}),     canvas.lattice<2>(2, 3.1),
-      canvas.warp<2>(3, 0.7, 3, 0.35),     static_cast<float>(params.crease / 2),
+      canvas.warp<2>(3, 1.2, 3, 0.18),     static_cast<float>(params.crease / 2),
       canvas.fractal<2>(4, 0.35, 5),       canvas.fractal<2>(5, 9, 3, 0.8),
       make_ramp("colours", params.colours)};
   Texture texture = render(shader, canvas, {.height = true, .mask = true});

@@ -68,8 +68,8 @@ struct Leather {
   static constexpr std::string_view summary = "grained leather";
   static constexpr bool solid = false;
   double crease = 0.10;
-  double relief = 0.22;
-  std::vector<double> colours{0.16, 0.07, 0.04, 0.36, 0.18, 0.10, 0.46, 0.25, 0.15};
+  double relief = 0.12;
+  std::vector<double> colours{0.20, 0.10, 0.06, 0.44, 0.24, 0.13, 0.56, 0.33, 0.20};
   static constexpr auto fields() {
     return std::tuple{
         Field{"crease", &Leather::crease, "width of the creases", "features", {0, 0.4}},

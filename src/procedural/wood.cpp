@@ -16,7 +16,7 @@ struct Trunk {
   Ramp ramp;
 
   GRAMLOOM_INLINE Surface at(Floats radius, const Point<3>& p) const {
-    const Floats phase = radius + curl * (4 * unit_sum(bend, p) + 0.4f * unit_sum(waver, p));
+    const Floats phase = radius + curl * (6 * unit_sum(bend, p) + 0.4f * unit_sum(waver, p));
     const Floats ring = floor(phase);
     // cos(R)ᵖᵒʷᵉʳ; but late wood darkens slowly and ends at once, so the wave is pushed to one
     // side.
@@ -28,7 +28,7 @@ struct Trunk {
     const Floats pore = smoothstep(0.18f, 0.40f, unit_sum(pores, p)) * (1 - 0.6f * edge);
     const Floats tone = 0.12f + 0.75f * edge * (0.6f + 0.4f * year) + 0.18f * unit_sum(tint, p) +
                         grain * 0.22f * fibre;
-    const Floats shade = 1 + grain * (0.35f * fibre - 0.38f * pore);
+    const Floats shade = 1 + grain * (0.45f * fibre - 0.42f * pore);
     return {colour_at(ramp, tone) * shade, 0.75f - 0.25f * grain * pore + 0.1f * fibre};
   }
 };
@@ -44,10 +44,10 @@ Trunk make_trunk(const Canvas& canvas, double rings_per_feature, double sharpnes
   return {static_cast<float>(sharpness),
           static_cast<float>(curl),
           static_cast<float>(grain),
-          canvas.fractal<3>(1, drawn(0.14, 0.05), 2, 0.4),
+          canvas.fractal<3>(1, drawn(0.12, 0.075), 2, 0.4),
           canvas.fractal<3>(2, drawn(0.8, 0.15), 3),
-          canvas.fractal<3>(3, drawn(6, 0.25), 3, 0.7),
-          canvas.fractal<3>(4, drawn(9, 0.6), 2, 0.7),
+          canvas.fractal<3>(3, drawn(3.5, 0.12), 4, 0.8),
+          canvas.fractal<3>(4, drawn(7, 0.35), 2, 0.7),
           canvas.fractal<3>(5, drawn(0.5, 0.08), 3),
           make_ramp("colours", colours)};
 }
@@ -60,7 +60,7 @@ struct WoodShader {
 
   /// Mirrored at half the width where the picture tiles: rings of a trunk do not repeat.
   GRAMLOOM_INLINE static Floats folded(Floats v, float length, bool fold) {
-    return fold ? abs(v - 0.5f * length) : v;
+    return fold ? length * abs(fraction(v / length) - 0.5f) : v;
   }
   GRAMLOOM_INLINE Surface operator()(const Point<4>& q) const {
     const Point<3> p = solid(q);
