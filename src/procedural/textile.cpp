@@ -129,7 +129,7 @@ struct LeatherShader {
     const Cells grain = cells(grains, moved, 0.95f, 0.07f);
     const Cells small = cells(fine, moved, 0.95f, 0.07f);
     const Floats depth = grain.rounded / grains.frequency[0] - half_crease;
-    const Floats dome = smoothstep(-0.06f, 0.22f, depth);
+    const Floats dome = smoothstep(-0.08f, 0.24f, depth);
     const Floats little = smoothstep(-0.05f, 0.25f, small.rounded);
     const Floats pore = unit_sum(pores, p);
     const Floats height = 0.08f + 0.62f * dome + 0.16f * little + 0.08f * pore +

@@ -67,9 +67,9 @@ struct Leather {
   static constexpr std::string_view name = "leather";
   static constexpr std::string_view summary = "grained leather";
   static constexpr bool solid = false;
-  double crease = 0.10;
-  double relief = 0.12;
-  std::vector<double> colours{0.20, 0.10, 0.06, 0.44, 0.24, 0.13, 0.56, 0.33, 0.20};
+  double crease = 0.03;
+  double relief = 0.10;
+  std::vector<double> colours{0.26, 0.13, 0.07, 0.45, 0.25, 0.14, 0.55, 0.33, 0.20};
   static constexpr auto fields() {
     return std::tuple{
         Field{"crease", &Leather::crease, "width of the creases", "features", {0, 0.4}},
