@@ -90,14 +90,15 @@ struct StuccoShader {
 
   GRAMLOOM_INLINE Surface operator()(const Point<4>& q) const {
     const Point<2> p = flat(q);
-    const Floats lump = 0.5f + 0.8f * unit_sum(lumps, warped(sweep, p));
-    // Pressed with a board: what stands out is levelled.
-    const float level = 1 - 0.5f * flattened;
-    const Floats pressed = lump - smoothstep(0, 1, (lump - level + 0.15f) / 0.3f) * (lump - level);
+    const Floats lump = 0.5f + 0.9f * unit_sum(lumps, warped(sweep, p));
+    // Drops of plaster thrown at the wall, then levelled with a board: islands with flat tops.
+    const Floats island = smoothstep(0.42f, 0.58f, lump);
+    const Floats thrown = clamp(lump);
+    const Floats level = mix(thrown, 0.25f + 0.5f * island, splat(flattened));
     const Floats grain = unit_sum(grit, p);
-    const Floats height = 0.15f + 0.75f * pressed + 0.10f * grain;
-    const Floats tone = 0.15f + 0.8f * pressed + 0.25f * unit_sum(stain, p);
-    return {colour_at(ramp, tone) * (1 + 0.12f * grain), clamp(height)};
+    const Floats height = 0.12f + 0.75f * level + (0.14f - 0.08f * flattened * island) * grain;
+    const Floats tone = 0.25f + 0.6f * level + 0.3f * unit_sum(stain, p);
+    return {colour_at(ramp, tone) * (1 + 0.10f * grain), clamp(height)};
   }
 };
 
@@ -148,7 +149,7 @@ Texture paint(const Granite& params, const Canvas& canvas) {
 
 Texture paint(const Stucco& params, const Canvas& canvas) {
   const StuccoShader shader{
-      canvas.warp<2>(1, 0.8, 2, 0.5),       canvas.fractal<2>(2, 1, 6, 0.55),
+      canvas.warp<2>(1, 1.2, 3, 0.25),      canvas.fractal<2>(2, 1, 5, 0.4),
       canvas.fractal<2>(3, 12, 3, 0.8),     canvas.fractal<2>(4, 0.4, 4),
       static_cast<float>(params.flattened), make_ramp("colours", params.colours)};
   Texture texture = render(shader, canvas, {.height = true});

@@ -83,21 +83,21 @@ struct Granite {
 };
 Texture paint(const Granite& params, const Canvas& canvas);
 
-/// Rough plaster: lumps of about a feature, pressed flat in places.
+/// Plaster thrown at a wall in drops of about a feature, and levelled.
 struct Stucco {
   static constexpr std::string_view name = "stucco";
   static constexpr std::string_view summary = "rough plaster";
   static constexpr bool solid = false;
-  double flattened = 0.5;
-  double relief = 0.22;
-  std::vector<double> colours{0.72, 0.62, 0.47, 0.86, 0.77, 0.62, 0.91, 0.84, 0.71};
+  double flattened = 0.7;
+  double relief = 0.20;
+  std::vector<double> colours{0.74, 0.70, 0.63, 0.86, 0.83, 0.77, 0.93, 0.91, 0.86};
   static constexpr auto fields() {
     return std::tuple{
-        Field{"flattened", &Stucco::flattened, "how much the lumps are pressed flat", "", {0, 1}},
-        Field{"relief", &Stucco::relief, "height of the lumps, for the light", "features", {0, 1}},
+        Field{"flattened", &Stucco::flattened, "how flat the drops are pressed", "", {0, 1}},
+        Field{"relief", &Stucco::relief, "height of the drops, for the light", "features", {0, 1}},
         Field{"colours",
               &Stucco::colours,
-              "colour ramp from hollows to lumps",
+              "colour ramp from hollows to drops",
               "r, g, b, …",
               {0, 1}}};
   }

@@ -126,15 +126,15 @@ struct LeatherShader {
   GRAMLOOM_INLINE Surface operator()(const Point<4>& q) const {
     const Point<2> p = flat(q);
     const Point<2> moved = warped(pull, p);
-    const Cells grain = cells(grains, moved, 0.95f, 0.07f);
-    const Cells small = cells(fine, moved, 0.95f, 0.07f);
+    const Cells grain = cells(grains, moved, 0.85f, 0.12f);
+    const Cells small = cells(fine, moved, 0.9f, 0.10f);
     const Floats depth = grain.rounded / grains.frequency[0] - half_crease;
-    const Floats dome = smoothstep(-0.08f, 0.24f, depth);
+    const Floats dome = smoothstep(-0.16f, 0.20f, depth);
     const Floats little = smoothstep(-0.05f, 0.25f, small.rounded);
     const Floats pore = unit_sum(pores, p);
     const Floats height = 0.08f + 0.62f * dome + 0.16f * little + 0.08f * pore +
                           0.10f * (unit_float(grain.id, 3) - 0.5f) * dome;
-    const Floats tone = 0.12f + 0.62f * dome + 0.14f * little + 0.25f * unit_sum(dye, p) +
+    const Floats tone = 0.20f + 0.48f * dome + 0.16f * little + 0.30f * unit_sum(dye, p) +
                         0.10f * (unit_float(grain.id, 4) - 0.5f);
     return {colour_at(ramp, tone) * (1 + 0.10f * pore), clamp(height), 1 - dome};
   }
