@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -68,6 +69,10 @@ struct Canvas {
     result.octaves = octaves;
     double amplitude = 1;
     for (std::size_t k = 0; k < static_cast<std::size_t>(octaves); ++k) {
+      if (k > 0 && too_fine(*std::max_element(per_feature.begin(), per_feature.end()))) {
+        result.octaves = static_cast<int>(k);
+        break;
+      }
       const std::uint32_t stream = layer * 64 + static_cast<std::uint32_t>(k);
       result.lattice[k] = lattice<D>(stream, per_feature);
       // Lattices of all octaves would meet at the first one's points, where all noise is zero.
@@ -97,6 +102,8 @@ struct Canvas {
   }
 
  private:
+  /// No sampling sees what is a sixteenth of a pixel; and lattice coordinates must stay integers.
+  bool too_fine(double per_feature) const { return per_feature * static_cast<double>(step_x) > 16; }
   template <int D>
   static std::array<double, D> filled(double value) {
     std::array<double, D> all;

@@ -265,6 +265,20 @@ TEST(Texture, WhatDoesNotFitIsAnError) {
   EXPECT_THROW(synthesise(params, target, Random(1)), ConfigError);
 }
 
+TEST(Texture, OctavesFinerThanAnySampleAreLeftOut) {
+  Noise noise;
+  noise.octaves = max_octaves;
+  noise.lacunarity = 8;
+  noise.gain = 1;
+  for (noise.dimensions = 1; noise.dimensions <= 4; ++noise.dimensions) {
+    const Image image = synthesise(params_of(noise), {{32, 32}, Tile::both}, Random(1)).image;
+    const ChannelRange range = channel_range(image);
+    EXPECT_GT(range.low[0], 0.05f);
+    EXPECT_LT(range.high[0], 0.95f);
+    EXPECT_GT(range.high[0] - range.low[0], 0.05f);
+  }
+}
+
 TEST(Texture, StopsWhenAsked) {
   Control control;
   control.progress = [](const Progress&) { return false; };
