@@ -63,6 +63,11 @@ enum class Tile { none, x, y, both };
 inline bool tiles_x(Tile tile) { return tile == Tile::x || tile == Tile::both; }
 inline bool tiles_y(Tile tile) { return tile == Tile::y || tile == Tile::both; }
 
+/// The Tile of these two axes.
+inline Tile wrapping(bool x, bool y) {
+  return x ? (y ? Tile::both : Tile::x) : (y ? Tile::y : Tile::none);
+}
+
 /// What is wanted of a synthesis: the size of the result and which of its edges meet.
 struct Target {
   Size size{256, 256};

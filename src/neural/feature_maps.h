@@ -18,6 +18,9 @@ struct FeatureMaps {
   std::int64_t width() const { return data.size(2); }
 };
 
+/// The maps of one layer at every scale of the network, finest first: one, but for pyramids.
+using Scales = std::vector<FeatureMaps>;
+
 /// Channels in a block: 16 where the processor has AVX-512, else 8.
 std::int64_t channel_block();
 
@@ -35,6 +38,11 @@ struct Edges {
   Padding x = Padding::circular;
   Padding y = Padding::circular;
 };
+
+/// The axes on which maps go on across the edge.
+inline Tile wrapped_axes(Edges edges) {
+  return wrapping(edges.x == Padding::circular, edges.y == Padding::circular);
+}
 
 /// `maps` with `radius` more positions on every side; on axes of Padding::valid, unchanged.
 /// A circular axis may be shorter than the radius; a reflecting one (which repeats the edge

@@ -15,7 +15,7 @@ Loss::Loss(const Network& network, const NetworkDescription& description,
     terms_.push_back({description.layers[layer.index].name, 0});
   }
   for (const auto& maps : network_(exemplar, exemplar_edges, wanted_))
-    targets_.emplace_back(moments(maps), options);
+    targets_.emplace_back(moments(maps, wrapped_axes(exemplar_edges)), options);
 }
 
 double Loss::operator()(const at::Tensor& picture, at::Tensor& gradient) {
@@ -25,7 +25,8 @@ double Loss::operator()(const at::Tensor& picture, at::Tensor& gradient) {
   {
     const auto maps = network_(x, edges_, wanted_);
     for (std::size_t i = 0; i < maps.size(); ++i) {
-      const at::Tensor term = targets_[i].distance(moments(maps[i])) * weights_[i];
+      const at::Tensor term =
+          targets_[i].distance(moments(maps[i], wrapped_axes(edges_))) * weights_[i];
       terms_[i].value = term.item<double>();
       total = total + term;
     }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "neural/resample.h"
+
 namespace gramloom::neural {
 
 namespace {
@@ -38,6 +40,20 @@ void crop_to_smallest(std::vector<FeatureMaps>& parts) {
                     .narrow(2, (part.width() - width) / 2, width);
 }
 
+// The picture at half the size, rounded up; wrapped where it wraps.
+at::Tensor halved(const at::Tensor& planes, Edges edges) {
+  const auto half = [](std::int64_t side) { return static_cast<int>((side + 1) / 2); };
+  return resample(planes, {half(planes.size(2)), half(planes.size(1))}, wrapped_axes(edges));
+}
+
+// One over each filter's mean activation over all positions of all scales; 1 for dead filters.
+at::Tensor inverse_activation(const Scales& scales) {
+  std::vector<at::Tensor> rows;
+  for (const auto& maps : scales) rows.push_back(to_rows({at::relu(maps.data), maps.channels}));
+  const at::Tensor mean = at::cat(rows).mean(0);
+  return at::where(mean > 1e-12, 1 / mean, at::ones_like(mean));
+}
+
 }  // namespace
 
 Network::Network(const NetworkDescription& description, const std::vector<FilterShape>& shapes,
@@ -49,38 +65,64 @@ Network::Network(const NetworkDescription& description, const std::vector<Filter
          shapes[i].blur});
 }
 
-FeatureMaps Network::filter(std::size_t index, const at::Tensor& picture, const FeatureMaps& maps,
-                            Edges edges, bool relu) const {
-  const bool first = !maps.data.defined();  // nothing but the picture so far
+std::vector<Scales> Network::filter(std::size_t index, const at::Tensor& picture,
+                                    const Scales& before, Edges edges, bool relu) const {
   const auto smallest = [](Padding padding, std::int64_t radius) {
     return padding == Padding::valid ? 2 * radius + 1 : 1;
   };
-  std::vector<FeatureMaps> parts;
-  for (const auto& [convolution, blur_deviation] : branches_[index]) {
-    check_size(index, first ? picture.size(1) : maps.height(),
-               first ? picture.size(2) : maps.width(), smallest(edges.y, convolution.radius()),
-               smallest(edges.x, convolution.radius()), picture);
-    if (first || blur_deviation > 0)
-      parts.push_back(
-          convolution(blur(first ? picture : to_planes(maps), blur_deviation, edges), edges, relu));
-    else
-      parts.push_back(convolution(maps, edges, relu));
+  const auto one = [&](const Branch& branch, const at::Tensor& planes, const FeatureMaps* maps) {
+    const std::int64_t radius = branch.convolution.radius();
+    check_size(index, maps ? maps->height() : planes.size(1), maps ? maps->width() : planes.size(2),
+               smallest(edges.y, radius), smallest(edges.x, radius), picture);
+    if (maps && branch.blur == 0) return branch.convolution(*maps, edges, relu);
+    return branch.convolution(blur(maps ? to_planes(*maps) : planes, branch.blur, edges), edges,
+                              relu);
+  };
+  std::vector<Scales> result;
+  at::Tensor planes = picture;
+  for (const Branch& branch : branches_[index]) {
+    Scales scales;
+    for (const FeatureMaps& maps : before) scales.push_back(one(branch, {}, &maps));
+    if (before.empty()) scales.push_back(one(branch, planes, nullptr));
+    result.push_back(std::move(scales));
+    if (is<PyramidLayer>(description_.layers[index])) planes = halved(planes, edges);
   }
-  if (parts.size() == 1) return parts[0];
-  crop_to_smallest(parts);
-  return concatenate(parts);
+  return result;
 }
 
-FeatureMaps Network::apply(std::size_t index, const at::Tensor& picture, const FeatureMaps& maps,
-                           Edges edges, bool relu) const {
-  if (!branches_[index].empty()) return filter(index, picture, maps, edges, relu);
-  const FeatureMaps input = maps.data.defined() ? maps : to_maps(picture);
+Scales Network::join(std::size_t index, std::vector<Scales> branches) const {
+  Scales result;
+  if (is<PyramidLayer>(description_.layers[index])) {
+    for (auto& branch : branches) result.push_back(std::move(branch[0]));
+  } else if (branches.size() == 1) {
+    result = std::move(branches[0]);
+  } else {
+    for (std::size_t scale = 0; scale < branches[0].size(); ++scale) {
+      std::vector<FeatureMaps> parts;
+      for (const auto& branch : branches) parts.push_back(branch[scale]);
+      crop_to_smallest(parts);
+      result.push_back(concatenate(parts));
+    }
+  }
+  return result;
+}
+
+Scales Network::apply(std::size_t index, const at::Tensor& picture, const Scales& before,
+                      Edges edges, bool relu) const {
+  if (!branches_[index].empty()) return join(index, filter(index, picture, before, edges, relu));
   const Layer& layer = description_.layers[index];
-  if (is<ReluLayer>(layer)) return {at::relu(input.data), input.channels};
-  check_size(index, input.height(), input.width(), 2, 2, picture);
   const bool average = pooling_ == Pooling::average ||
                        (pooling_ == Pooling::as_described && is<AveragePoolLayer>(layer));
-  return pool(input, average ? PoolKind::average : PoolKind::max);
+  Scales result = before.empty() ? Scales{to_maps(picture)} : before;
+  for (auto& maps : result) {
+    if (is<ReluLayer>(layer)) {
+      maps.data = at::relu(maps.data);
+    } else {
+      check_size(index, maps.height(), maps.width(), 2, 2, picture);
+      maps = pool(maps, average ? PoolKind::average : PoolKind::max);
+    }
+  }
+  return result;
 }
 
 void Network::check_size(std::size_t layer, std::int64_t height, std::int64_t width,
@@ -91,10 +133,10 @@ void Network::check_size(std::size_t layer, std::int64_t height, std::int64_t wi
               description_.layers[layer].name, description_.name, picture.size(2), picture.size(1));
 }
 
-std::vector<FeatureMaps> Network::operator()(const at::Tensor& picture, Edges edges,
-                                             const std::vector<std::size_t>& wanted) const {
-  std::vector<FeatureMaps> result;
-  FeatureMaps maps;
+std::vector<Scales> Network::operator()(const at::Tensor& picture, Edges edges,
+                                        const std::vector<std::size_t>& wanted) const {
+  std::vector<Scales> result;
+  Scales maps;
   for (std::size_t i = 0; result.size() < wanted.size(); ++i) {
     const bool fuse = !branches_[i].empty() && wanted[result.size()] != i &&
                       i + 1 < description_.layers.size() &&
@@ -111,29 +153,28 @@ Network Network::rescaled(const NetworkDescription& description,
                           std::vector<FilterWeights> weights, Pooling pooling,
                           const at::Tensor& picture, Edges edges) {
   const at::NoGradGuard no_gradients;
-  FeatureMaps maps;
+  Scales maps;
   for (std::size_t layer = 0, i = 0; layer < description.layers.size(); ++layer) {
     // One layer at a time is a network of its own, so that no more than one is in memory twice.
-    std::vector<FilterShape> own;
-    std::vector<FilterWeights> filters;
-    const std::size_t first = i;
-    for (; i < shapes.size() && shapes[i].layer == layer; ++i) {
-      own.push_back(shapes[i]);
-      filters.push_back(weights[i]);
+    std::size_t count = 0;
+    while (i + count < shapes.size() && shapes[i + count].layer == layer) ++count;
+    const auto from = static_cast<std::ptrdiff_t>(i), to = static_cast<std::ptrdiff_t>(i + count);
+    const Network network(description, {shapes.begin() + from, shapes.begin() + to},
+                          {weights.begin() + from, weights.begin() + to}, pooling);
+    if (count == 0) {
+      maps = network.apply(layer, picture, maps, edges, false);
+      continue;
     }
-    const Network network(description, own, filters, pooling);
-    maps = network.apply(layer, picture, maps, edges, false);
-    if (own.empty()) continue;
-    const at::Tensor mean = to_rows({at::relu(maps.data), maps.channels}).mean(0);
-    const at::Tensor factor = at::where(mean > 1e-12, 1 / mean, at::ones_like(mean));
-    std::int64_t channel = 0;
-    for (std::size_t k = first; k < i; ++k) {
-      const at::Tensor part = factor.narrow(0, channel, shapes[k].outputs);
-      weights[k].weights = weights[k].weights * part.view({-1, 1, 1, 1});
-      if (weights[k].bias.defined()) weights[k].bias = weights[k].bias * part;
-      channel += shapes[k].outputs;
+    auto branches = network.filter(layer, picture, maps, edges, false);
+    for (std::size_t k = 0; k < count; ++k) {
+      const at::Tensor factor = inverse_activation(branches[k]);
+      auto& own = weights[i + k];
+      own.weights = own.weights * factor.view({-1, 1, 1, 1});
+      if (own.bias.defined()) own.bias = own.bias * factor;
+      for (auto& scale : branches[k]) scale = to_maps(to_planes(scale) * factor.view({-1, 1, 1}));
     }
-    maps = to_maps(to_planes(maps) * factor.view({-1, 1, 1}));
+    maps = network.join(layer, std::move(branches));
+    i += count;
   }
   return {description, shapes, std::move(weights), pooling};
 }

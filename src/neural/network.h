@@ -41,8 +41,8 @@ class Network {
 
   /// The feature maps of the layers at `wanted` (ascending indices), of one picture
   /// (channels, height, width). Throws Error when a layer would be empty.
-  std::vector<FeatureMaps> operator()(const at::Tensor& picture, Edges edges,
-                                      const std::vector<std::size_t>& wanted) const;
+  std::vector<Scales> operator()(const at::Tensor& picture, Edges edges,
+                                 const std::vector<std::size_t>& wanted) const;
 
  private:
   struct Branch {  // of a layer with filters
@@ -50,10 +50,13 @@ class Network {
     double blur;
   };
 
-  FeatureMaps apply(std::size_t layer, const at::Tensor& picture, const FeatureMaps& maps,
-                    Edges edges, bool relu) const;
-  FeatureMaps filter(std::size_t layer, const at::Tensor& picture, const FeatureMaps& maps,
-                     Edges edges, bool relu) const;
+  // A layer's maps from those of the layer before, or, when there are none, from the picture.
+  Scales apply(std::size_t layer, const at::Tensor& picture, const Scales& before, Edges edges,
+               bool relu) const;
+  // What each branch of a layer with filters gives; joined, they are the layer's maps.
+  std::vector<Scales> filter(std::size_t layer, const at::Tensor& picture, const Scales& before,
+                             Edges edges, bool relu) const;
+  Scales join(std::size_t layer, std::vector<Scales> branches) const;
 
   void check_size(std::size_t layer, std::int64_t height, std::int64_t width,
                   std::int64_t least_height, std::int64_t least_width,

@@ -49,6 +49,8 @@ Layer read_layer(const toml::table& table) {
   Layer layer{required_text(table, "name"), read_kind(table)};
   if (const auto* convolution = std::get_if<ConvolutionLayer>(&layer.kind))
     check_odd(convolution->kernel, table, "kernel");
+  if (const auto* pyramid = std::get_if<PyramidLayer>(&layer.kind))
+    check_odd(pyramid->kernel, table, "kernel");
   if (auto* bank = std::get_if<BankLayer>(&layer.kind)) check_branches(*bank, table);
   return layer;
 }
@@ -61,6 +63,9 @@ void read_layers(NetworkDescription& network, const toml::table& table) {
   for (const auto& element : *node->as_array()) {
     const toml::table& layer = *element.as_table();
     network.layers.push_back(read_layer(layer));
+    if (network.layers.size() > 1 &&
+        std::holds_alternative<PyramidLayer>(network.layers.back().kind))
+      fail(key_region(layer, "type"), "a pyramid must be the first layer");
     if (!names.insert(network.layers.back().name).second)
       fail(key_region(layer, "name"), "two layers are named '{}'", network.layers.back().name);
   }
@@ -150,6 +155,10 @@ std::vector<FilterShape> filter_shapes(const NetworkDescription& network, int ch
         shapes.push_back(
             {i, bank->channels, channels, bank->kernels[b], bank->dilations[b], bank->blurs[b]});
       channels = bank->channels * static_cast<int>(branches);
+    } else if (const auto* pyramid = std::get_if<PyramidLayer>(&network.layers[i].kind)) {
+      for (int scale = 0; scale < pyramid->scales; ++scale)
+        shapes.push_back({i, pyramid->channels, channels, pyramid->kernel, 1, 0});
+      channels = pyramid->channels;
     }
   }
   return shapes;

@@ -59,6 +59,26 @@ struct BankLayer {
   }
 };
 
+/// The picture at several sizes, each half as large as the one before (any size, even odd ones),
+/// and each with filters of its own: the scales of a bank at a fraction of its cost, since what is
+/// coarse needs few positions. Must be the first layer; those after it act on each scale alone.
+/// Statistics are taken across the scales.
+struct PyramidLayer {
+  static constexpr std::string_view name = "pyramid";
+  static constexpr std::string_view summary = "filters on the picture at several sizes";
+  int channels = 64;
+  int kernel = 5;
+  int scales = 5;
+
+  static constexpr auto fields() {
+    using L = PyramidLayer;
+    return std::tuple{
+        Field{"channels", &L::channels, "number of filters of each scale", "", {1, 8192}},
+        Field{"kernel", &L::kernel, "side of a filter, odd", "positions", {1, 101}},
+        Field{"scales", &L::scales, "sizes of the picture: whole, half, …", "", {1, 12}}};
+  }
+};
+
 /// max(x, 0).
 struct ReluLayer {
   static constexpr std::string_view name = "relu";
@@ -78,8 +98,8 @@ struct MaxPoolLayer {
   static constexpr auto fields() { return std::tuple{}; }
 };
 
-using LayerKind =
-    std::variant<ConvolutionLayer, BankLayer, ReluLayer, AveragePoolLayer, MaxPoolLayer>;
+using LayerKind = std::variant<ConvolutionLayer, BankLayer, PyramidLayer, ReluLayer,
+                               AveragePoolLayer, MaxPoolLayer>;
 
 struct Layer {
   std::string name;
@@ -125,7 +145,7 @@ NetworkDescription read_network(const std::filesystem::path& file);
 /// Index of the layer of that name. Throws ConfigError naming the closest.
 std::size_t find_layer(const NetworkDescription& network, const std::string& layer);
 
-/// One filter bank of a network: a convolution layer, or one branch of a bank.
+/// One filter bank of a network: a convolution layer, one branch of a bank, one scale of a pyramid.
 struct FilterShape {
   std::size_t layer = 0;  // index in NetworkDescription::layers
   int outputs = 0, inputs = 0, kernel = 0, dilation = 1;

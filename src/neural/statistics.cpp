@@ -2,6 +2,8 @@
 
 #include <torch/csrc/autograd/custom_function.h>
 
+#include "neural/resample.h"
+
 namespace gramloom::neural {
 
 namespace {
@@ -40,6 +42,33 @@ struct MomentsFunction : torch::autograd::Function<MomentsFunction> {
 Moments moments(const FeatureMaps& maps) {
   auto result = MomentsFunction::apply(maps.data, maps.channels);
   return {result[0], result[1]};
+}
+
+Moments moments(const Scales& scales, Tile tile) {
+  if (scales.size() == 1) return moments(scales[0]);
+  std::vector<FeatureMaps> finer;  // maps of finer scales, averaged to the present one's positions
+  std::vector<at::Tensor> means;
+  std::vector<std::vector<at::Tensor>> blocks(scales.size());  // of the Gram matrix
+  for (std::size_t k = 0; k < scales.size(); ++k) {
+    const Size size{static_cast<int>(scales[k].width()), static_cast<int>(scales[k].height())};
+    for (auto& maps : finer) maps = shrink(maps, size, tile);
+    const Moments own = moments(scales[k]);
+    means.push_back(own.mean);
+    if (k > 0) {
+      const at::Tensor rows = to_rows(scales[k]);
+      for (std::size_t j = 0; j < k; ++j) {
+        const at::Tensor cross =
+            at::mm(rows.t(), to_rows(finer[j])) / static_cast<double>(rows.size(0));
+        blocks[k].push_back(cross);
+        blocks[j].push_back(cross.t());
+      }
+    }
+    blocks[k].push_back(own.gram);
+    finer.push_back(scales[k]);
+  }
+  std::vector<at::Tensor> rows;
+  for (const auto& row : blocks) rows.push_back(at::cat(row, 1));
+  return {at::cat(rows), at::cat(means)};
 }
 
 GramTarget::GramTarget(const Moments& exemplar, const GramOptions& options) : options_(options) {

@@ -14,6 +14,12 @@ struct Moments {
 /// One matrix product; its gradient (∂gram + ∂gramᵀ) F / M is one more.
 Moments moments(const FeatureMaps& maps);
 
+/// The same over all maps of all scales. Maps of two scales meet at the coarser one's positions,
+/// where the finer one is averaged: what coarse maps, which are smooth, would give at every fine
+/// position, for a fraction of the work.
+/// tile: the edges across which maps go on.
+Moments moments(const Scales& scales, Tile tile);
+
 /// How the Gram matrices of one layer are compared.
 struct GramOptions {
   bool normalise = true;

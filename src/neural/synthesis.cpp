@@ -105,11 +105,6 @@ class Synthesis {
     return {tiles_x(target_.tile) ? Padding::circular : params_.padding,
             tiles_y(target_.tile) ? Padding::circular : params_.padding};
   }
-  // Resampling wraps where the network does.
-  Tile wraps() const {
-    const bool x = edges().x == Padding::circular, y = edges().y == Padding::circular;
-    return x ? (y ? Tile::both : Tile::x) : (y ? Tile::y : Tile::none);
-  }
   double level_scale() const { return std::pow(params_.level_factor, state_.level); }
 
   at::Tensor first_picture(Size size) const {
@@ -119,7 +114,7 @@ class Synthesis {
     if (image.channels != channels)
       throw Error("{}: has {} channels, the exemplar has {}", params_.start.string(),
                   image.channels, channels);
-    return resample(to_planes(whitened(image, colours_)), size, wraps());
+    return resample(to_planes(whitened(image, colours_)), size, wrapped_axes(edges()));
   }
 
   // Optimises one level; false when the synthesis should stop.
@@ -131,7 +126,7 @@ class Synthesis {
     if (!state_.picture.defined())
       state_.picture = first_picture(size);
     else if (!resumed)
-      state_.picture = resample(state_.picture, size, wraps());
+      state_.picture = resample(state_.picture, size, wrapped_axes(edges()));
 
     Loss loss(network_, description_, layers_,
               {params_.normalise, params_.centre, params_.standardise},

@@ -97,9 +97,9 @@ TEST(Network, FusedReluIsTheSameAsItsOwnLayer) {
   const auto apart =
       network(picture, wrap, {find_layer(vgg, "conv1_2"), find_layer(vgg, "relu1_2")});
   const auto fused = network(picture, wrap, {find_layer(vgg, "relu1_2")});
-  EXPECT_LT(apart[0].data.min().item<float>(), 0);
-  EXPECT_TRUE(at::equal(at::relu(apart[0].data), apart[1].data));
-  EXPECT_TRUE(at::equal(apart[1].data, fused[0].data));
+  EXPECT_LT(apart[0][0].data.min().item<float>(), 0);
+  EXPECT_TRUE(at::equal(at::relu(apart[0][0].data), apart[1][0].data));
+  EXPECT_TRUE(at::equal(apart[1][0].data, fused[0][0].data));
 }
 
 TEST(Network, CircularPaddingCommutesWithShifts) {
@@ -109,8 +109,8 @@ TEST(Network, CircularPaddingCommutesWithShifts) {
                         Pooling::as_described);
   const at::Tensor picture = numbers({3, 24, 32}, 2);
   const at::Tensor shifted = at::roll(picture, {5, -9}, {1, 2});
-  const at::Tensor a = to_planes(network(picture, wrap, {1})[0]);
-  const at::Tensor b = to_planes(network(shifted, wrap, {1})[0]);
+  const at::Tensor a = to_planes(network(picture, wrap, {1})[0][0]);
+  const at::Tensor b = to_planes(network(shifted, wrap, {1})[0][0]);
   EXPECT_LT(relative_difference(at::roll(a, {5, -9}, {1, 2}), b), 1e-5);
 }
 
@@ -139,7 +139,7 @@ TEST(Network, RescaledFiltersHaveMeanActivationOne) {
                         Pooling::as_described, picture, wrap);
   for (const char* layer : {"relu1_1", "relu2_2", "relu4_2"}) {
     const at::Tensor means =
-        to_planes(network(picture, wrap, {find_layer(vgg, layer)})[0]).mean({1, 2});
+        to_planes(network(picture, wrap, {find_layer(vgg, layer)})[0][0]).mean({1, 2});
     const at::Tensor alive = means.masked_select(means > 0);
     EXPECT_GT(alive.numel(), means.numel() / 2);
     EXPECT_LT((alive - 1).abs().max().item<double>(), 1e-3) << layer;
