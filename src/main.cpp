@@ -1,1 +1,183 @@
-int main() { return 0; }
+// Arguments -> command -> exit code: the only place that catches everything and prints.
+#include <fcntl.h>
+#include <malloc.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+
+#include "core/error.h"
+#include "core/threads.h"
+#include "jobs/config.h"
+#include "jobs/listing.h"
+#include "jobs/machine.h"
+#include "jobs/plan.h"
+#include "jobs/progress_bar.h"
+#include "jobs/runner.h"
+
+namespace {
+
+using namespace gramloom;
+
+enum ExitCode { all_done = 0, job_failed = 1, bad_usage = 2, interrupted = 130 };
+
+struct Arguments {
+  std::string config;
+  std::string output;
+  std::string only;
+  std::vector<std::string> set;
+  std::string topic;
+  int threads = 0;
+  bool resume = false;
+  bool quiet = false;
+};
+
+std::atomic<bool> stop_asked{false};
+
+// The first signal asks the work to stop, the next one ends the process.
+extern "C" void ask_to_stop(int) {
+  stop_asked = true;
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+// A parent may have closed our standard streams; a result's file must not get their numbers.
+void keep_standard_streams_open() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDWR) == -1) std::_Exit(bad_usage);
+}
+
+// Freed buffers stay with the process: large ones come and go at each step, and faulting them in
+// again costs up to half of the time.
+void keep_large_buffers() {
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, 2147483647);
+}
+
+// Writes to standard output. A reader who has gone away is no mistake of ours.
+ExitCode print(const std::string& text) {
+  const bool complete =
+      std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  if (complete || errno == EPIPE) return all_done;
+  throw Error("cannot write to standard output: {}", std::strerror(errno));
+}
+
+ExitCode run_command(const Arguments& arguments) {
+  keep_large_buffers();
+  set_thread_count(arguments.threads);
+  const Config config = read_config(arguments.config, arguments.set);
+  std::signal(SIGINT, ask_to_stop);
+  std::signal(SIGTERM, ask_to_stop);
+  RunOptions options;
+  options.output = arguments.output.empty() ? std::filesystem::path("out") / config.file.stem()
+                                            : std::filesystem::path(arguments.output);
+  options.only = arguments.only;
+  options.resume = arguments.resume;
+  options.stop = [] { return stop_asked.load(); };
+  ProgressBar bar(progress_style(arguments.quiet));
+  const RunSummary summary = run(config, options, bar);
+  if (summary.interrupted + summary.left > 0) {
+    bar.complaint(fmt::format("gramloom: interrupted, {} of {} jobs are left; --resume goes on",
+                              summary.interrupted + summary.left,
+                              summary.done + summary.skipped + summary.failed +
+                                  summary.interrupted + summary.left));
+    return interrupted;
+  }
+  return summary.failed > 0 ? job_failed : all_done;
+}
+
+ExitCode check_command(const Arguments& arguments) {
+  const Config config = read_config(arguments.config, arguments.set);
+  return print(job_table(config, make_plan(config, arguments.only)));
+}
+
+ExitCode list_command(const Arguments& arguments) {
+  const auto wanted = [&](std::string_view topic) {
+    return arguments.topic.empty() || arguments.topic == topic;
+  };
+  std::string text;
+  if (wanted("methods")) text += list_methods();
+  if (wanted("networks")) text += list_networks({"models"});
+  if (wanted("patterns")) text += list_patterns();
+  return print(text);
+}
+
+void add_config_options(CLI::App& command, Arguments& arguments) {
+  command.add_option("config", arguments.config, "config file (TOML)")->required();
+  command.add_option("--only", arguments.only,
+                     "only jobs whose exemplar/method or exemplar/method/seedN matches: * and ?")
+      ->type_name("GLOB");
+  command.add_option("--set", arguments.set,
+                     "in place of what the config says: a top-level key, a parameter of every "
+                     "method that has it, or method.NAME.key")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_run(CLI::App& app, Arguments& arguments) {
+  CLI::App* run = app.add_subcommand(
+      "run", "Do the jobs of a config. Results of an earlier run into the same folder are replaced "
+             "as each job completes; with --resume, finished ones are kept.");
+  add_config_options(*run, arguments);
+  run->add_option("--output", arguments.output, "folder of the results (out/<config's name>)")
+      ->type_name("DIR");
+  run->add_option("--threads", arguments.threads, "threads; 0: every core")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024));
+  run->add_flag("--resume", arguments.resume, "keep finished jobs and go on with unfinished ones");
+  run->add_flag("--quiet", arguments.quiet, "show no progress");
+}
+
+ExitCode dispatch(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("New textures from a small picture of one.", "gramloom");
+  app.set_version_flag("--version", fmt::format("gramloom {}", version()));
+  app.require_subcommand(1);
+  app.footer(
+      "Exit code: 0 all done; 1 a job failed; 2 bad usage or config; 130 interrupted.");
+  add_run(app, arguments);
+  add_config_options(
+      *app.add_subcommand("check",
+                          "Validate a config and list its jobs with estimated memory and time"),
+      arguments);
+  app.add_subcommand("list", "List methods, networks and patterns with their parameters")
+      ->add_option("topic", arguments.topic, "methods, networks or patterns; all when left out")
+      ->check(CLI::IsMember({"methods", "networks", "patterns"}));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForVersion&) {
+    return print(fmt::format("gramloom {}\n", version()));
+  } catch (const CLI::Success&) {
+    // --help, of the program or of a command.
+    const auto commands = app.get_subcommands();
+    return print(commands.empty() ? app.help() : commands.front()->help());
+  } catch (const CLI::ParseError& error) {
+    throw ConfigError("{} (see --help)", error.what());
+  }
+  const std::string command = app.get_subcommands().front()->get_name();
+  if (command == "run") return run_command(arguments);
+  if (command == "check") return check_command(arguments);
+  return list_command(arguments);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  keep_standard_streams_open();
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    return dispatch(argc, argv);
+  } catch (const ConfigError& error) {
+    print_message(error.what());
+    return bad_usage;
+  } catch (const std::bad_alloc&) {
+    print_message("gramloom: out of memory");
+  } catch (const std::exception& error) {
+    print_message(fmt::format("gramloom: {}", error.what()));
+  }
+  return job_failed;
+}

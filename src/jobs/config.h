@@ -1,0 +1,86 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/fields.h"
+#include "core/image.h"
+#include "io/image_file.h"
+#include "jobs/methods.h"
+
+namespace gramloom {
+
+/// The file types of results; `automatic`: png for 8 and 16 bits, exr for floats, tif where there
+/// are more channels than those two are used for.
+enum class FileFormat { automatic, png, tif, exr, jpg };
+template <>
+inline constexpr auto enum_names<FileFormat> =
+    std::to_array<std::string_view>({"automatic", "png", "tif", "exr", "jpg"});
+
+/// A picture that textures are made from: an [[exemplar]] of the config.
+struct ExemplarEntry {
+  std::string name;  // fit for a folder's name
+  std::filesystem::path image;
+  std::optional<int> max_side;
+  std::string place;  // where the config says so, for messages
+
+  static constexpr auto fields() {
+    using E = ExemplarEntry;
+    return std::tuple{
+        Field{"image", &E::image, "the picture"},
+        Field{"max_side", &E::max_side, "scale the longer side down to this", "pixels", {1, 65536}},
+    };
+  }
+};
+
+/// A method with its parameters: a [[method]] of the config.
+struct MethodEntry {
+  std::string name;  // fit for a folder's name
+  Method method;
+  std::string place;
+};
+
+/// A config file. Every exemplar × every method × every seed is one job; a method that needs no
+/// exemplar has one job a seed.
+struct Config {
+  std::filesystem::path file;
+  std::string text;                    // as it stands on disk
+  std::vector<std::string> overrides;  // the "key=value" of --set
+
+  std::vector<int> seeds{1};
+  Size size{256, 256};
+  Tile tile = Tile::none;
+  FileFormat format = FileFormat::automatic;
+  std::optional<PixelType> pixel_type;  // none: the exemplar's
+  std::vector<ExemplarEntry> exemplars;
+  std::vector<MethodEntry> methods;
+
+  static constexpr auto fields() {
+    using C = Config;
+    return std::tuple{
+        Field{"seeds", &C::seeds, "one job for each", "", {0, 2147483647}},
+        Field{"size", &C::size, "width and height of the results", "pixels", {1, 65536}},
+        Field{"tile", &C::tile, "which edges must meet seamlessly"},
+        Field{"format", &C::format, "file type of the results"},
+        Field{"pixel_type", &C::pixel_type, "how results store a value; the exemplar's if not set"},
+    };
+  }
+};
+
+/// The folder that the jobs of methods without an exemplar share; no exemplar can have its name
+/// in a config with such a method.
+inline constexpr std::string_view procedural_folder = "procedural";
+
+/// Reads a config file and checks all that can be known without reading a picture; `overrides` are
+/// "key=value" (a top-level key, or a parameter of every method that has it), "method.NAME.key=value"
+/// or "exemplar.NAME.key=value". Throws ConfigError, which says where the mistake is.
+Config read_config(const std::filesystem::path& file,
+                   const std::vector<std::string>& overrides = {});
+
+/// The same for a text; `file` gives its name in errors and the folder of its paths.
+Config parse_config(const std::string& text, const std::filesystem::path& file,
+                    const std::vector<std::string>& overrides = {});
+
+}  // namespace gramloom

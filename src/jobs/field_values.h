@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "core/fields.h"
+#include "core/image.h"
+
+namespace gramloom {
+
+// What a parameter of each type looks like: in words, as text and as JSON. The types are those of
+// core/fields.h, and besides them Size and std::optional (a key that may be left out).
+
+template <class T>
+inline constexpr bool is_optional = false;
+template <class T>
+inline constexpr bool is_optional<std::optional<T>> = true;
+
+template <>
+inline constexpr auto enum_names<Tile> =
+    std::to_array<std::string_view>({"none", "x", "y", "both"});
+
+/// What the config may say for a parameter: "a whole number, 4 to 512", "one of none, x, y, both".
+template <class T>
+std::string allowed_values(const Range& range) {
+  constexpr bool integer = std::is_integral_v<element_t<T>>;
+  const std::string limits = describe(range, integer);
+  const std::string after = limits.starts_with("any") ? "" : ", " + limits;
+  if constexpr (is_optional<T>) {
+    return allowed_values<typename T::value_type>(range);
+  } else if constexpr (std::is_same_v<T, bool>) {
+    return "true or false";
+  } else if constexpr (std::is_same_v<T, Size>) {
+    return "[width, height] or one number for both, each " + limits;
+  } else if constexpr (is_number<T>) {
+    return (integer ? "a whole number" : "a number") + after;
+  } else if constexpr (NamedEnum<T>) {
+    return fmt::format("one of {}", fmt::join(enum_names<T>, ", "));
+  } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
+    return "a file";
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    return "a text";
+  } else {
+    static_assert(is_list<T>, "a parameter has a type that configs do not know");
+    if constexpr (std::is_same_v<element_t<T>, std::string>) return "a list of texts";
+    return (integer ? "a list of whole numbers" : "a list of numbers") +
+           (after.empty() ? "" : ", each " + limits);
+  }
+}
+
+/// The value as it is saved with a result. Paths are written relative to `folder`, so that the
+/// bytes do not depend on where the program was called from.
+template <class T>
+nlohmann::ordered_json value_to_json(const T& value, const std::filesystem::path& folder) {
+  if constexpr (is_optional<T>) {
+    return value ? value_to_json(*value, folder) : nlohmann::ordered_json(nullptr);
+  } else if constexpr (std::is_same_v<T, Size>) {
+    return {value.width, value.height};
+  } else if constexpr (std::is_same_v<T, double>) {
+    // JSON has no word for infinity.
+    if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+    return value;
+  } else if constexpr (NamedEnum<T>) {
+    return to_word(value);
+  } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
+    if (!value.has_parent_path()) return value.generic_string();
+    const auto from = std::filesystem::absolute(folder.empty() ? "." : folder).lexically_normal();
+    return std::filesystem::absolute(value).lexically_proximate(from).generic_string();
+  } else if constexpr (is_list<T>) {
+    auto list = nlohmann::ordered_json::array();
+    for (const auto& element : value) list.push_back(value_to_json(element, folder));
+    return list;
+  } else {
+    return value;
+  }
+}
+
+/// The value as a config would write it.
+template <class T>
+std::string value_to_text(const T& value) {
+  const auto json = value_to_json(value, {});
+  if (json.is_null()) return "";
+  return json == "inf" ? "inf" : json.dump();
+}
+
+}  // namespace gramloom

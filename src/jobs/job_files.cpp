@@ -1,0 +1,53 @@
+#include "jobs/job_files.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace gramloom {
+
+namespace fs = std::filesystem;
+
+JobFiles job_files(const fs::path& output, const std::string& job) {
+  const fs::path stem = output / job;
+  return {stem.parent_path(),  stem.filename().string(),    stem.string() + ".json",
+          stem.string() + ".csv", stem.string() + ".checkpoint", stem.string() + ".checkpoint.csv"};
+}
+
+void create_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error && !fs::is_directory(folder, error)) error = std::make_error_code(std::errc::not_a_directory);
+  if (error) throw Error("cannot make the folder {}: {}", folder.string(), error.message());
+}
+
+void remove_file(const fs::path& file) {
+  std::error_code ignored;
+  fs::remove(file, ignored);
+}
+
+void remove_unfinished_state(const JobFiles& files) {
+  remove_file(files.checkpoint);
+  remove_file(files.checkpoint_trace);
+}
+
+void remove_stale_temporaries(const JobFiles& files) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(files.folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    const bool ours = name.starts_with("." + files.name + ".") || name.starts_with("." + files.name + "_");
+    if (ours && name.ends_with(".tmp")) remove_file(entry.path());
+  }
+}
+
+void remove_replaced(const JobFiles& files, const std::vector<std::string>& before,
+                     const std::vector<std::string>& now) {
+  for (const auto& name : before) {
+    // The record is a text that anyone may have changed: only files beside it are ours.
+    const bool beside = fs::path(name).filename() == name && name.starts_with(files.name);
+    if (beside && std::find(now.begin(), now.end(), name) == now.end())
+      remove_file(files.folder / name);
+  }
+}
+
+}  // namespace gramloom

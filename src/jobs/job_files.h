@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gramloom {
+
+/// Where a job's files are.
+struct JobFiles {
+  std::filesystem::path folder;
+  std::string name;                        // "seed1": what its files begin with
+  std::filesystem::path record;            // seed1.json
+  std::filesystem::path trace;             // seed1.csv
+  std::filesystem::path checkpoint;        // seed1.checkpoint
+  std::filesystem::path checkpoint_trace;  // seed1.checkpoint.csv
+};
+
+/// The files of the job called "exemplar/method/seed1" in the folder `output`.
+JobFiles job_files(const std::filesystem::path& output, const std::string& job);
+
+/// Makes a folder and those above it. Throws Error.
+void create_folder(const std::filesystem::path& folder);
+
+/// Removes a file if it is there and can be removed.
+void remove_file(const std::filesystem::path& file);
+
+/// Removes what an unfinished job keeps to go on from.
+void remove_unfinished_state(const JobFiles& files);
+
+/// Removes half-written temporary files that a killed process left.
+void remove_stale_temporaries(const JobFiles& files);
+
+/// Removes pictures of the result before that the new one has not written over.
+void remove_replaced(const JobFiles& files, const std::vector<std::string>& before,
+                     const std::vector<std::string>& now);
+
+}  // namespace gramloom

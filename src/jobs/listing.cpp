@@ -1,0 +1,126 @@
+#include "jobs/listing.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include "jobs/memory.h"
+#include "jobs/progress_bar.h"
+
+namespace gramloom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t longest_column = 44;
+
+using Row = std::vector<std::string>;
+
+// Columns of text, each as wide as its longest cell; the last one is not filled up.
+std::string table(const std::vector<Row>& rows, std::string_view indent) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t i = 0; i + 1 < row.size(); ++i)
+      widths[i] = std::max(widths[i], std::min(row[i].size(), longest_column));
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    std::string line(indent);
+    for (std::size_t i = 0; i < row.size(); ++i)
+      line += fmt::format("{:<{}}  ", row[i], widths[i]);
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+// A row for each parameter of Params' own.
+template <class Params>
+std::vector<Row> parameter_rows() {
+  const Params defaults;
+  std::vector<Row> rows;
+  for_each_field<Params>([&](const auto& field) {
+    using T = typename std::decay_t<decltype(field)>::value_type;
+    const std::string unit = field.unit.empty() ? "" : fmt::format(" ({})", field.unit);
+    rows.push_back({std::string(field.name), "= " + value_to_text(defaults.*field.member),
+                    allowed_values<T>(field.range),
+                    fmt::format("{}{}", field.meaning, unit)});
+  });
+  return rows;
+}
+
+template <class Textures>
+std::string list_textures() {
+  std::string text;
+  for_each_alternative<Textures>([&]<class T>(std::type_identity<T>) {
+    text += fmt::format("{}: {}\n", T::name, T::summary);
+    text += table(parameter_rows<T>(), "  ") + "\n";
+  });
+  return text;
+}
+
+// What the file's first comment says.
+std::string first_comment(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  std::getline(stream, line);
+  const std::size_t start = line.find_first_not_of("# ");
+  return line.starts_with('#') && start != std::string::npos ? line.substr(start) : "";
+}
+
+}  // namespace
+
+std::string list_methods() {
+  std::string text;
+  for_each_alternative<Method>([&]<class Params>(std::type_identity<Params>) {
+    text += fmt::format("{}: {}\n", Params::kind, Params::summary);
+    std::vector<Row> rows = parameter_rows<Params>();
+    if constexpr (HasVariant<Params>)
+      rows.insert(rows.begin(), {std::string(Params::variant_key), "", "a name",
+                                 "which one, with its own parameters: see 'gramloom list patterns'"});
+    text += table(rows, "  ") + "\n";
+  });
+  return text;
+}
+
+std::string list_patterns() {
+  std::string text;
+  for_each_alternative<Method>([&]<class Params>(std::type_identity<Params>) {
+    if constexpr (HasVariant<Params>) text += list_textures<decltype(Params::texture)>();
+  });
+  return text;
+}
+
+std::string list_networks(const std::vector<fs::path>& folders) {
+  std::vector<Row> rows;
+  for (const auto& folder : folders) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder, ignored))
+      if (entry.path().extension() == ".toml")
+        rows.push_back({entry.path().stem().string(), first_comment(entry.path())});
+  }
+  std::sort(rows.begin(), rows.end());
+  return table(rows, "");
+}
+
+std::string job_table(const Config& config, const Plan& plan) {
+  const double available = available_memory();
+  std::vector<Row> rows{{"job", "memory", "time", ""}};
+  double seconds = 0;
+  std::size_t count = 0;
+  for (const auto& planned : plan.jobs) {
+    if (!planned.selected) continue;
+    ++count;
+    seconds += planned.cost.seconds;
+    const std::string problem = !planned.error.empty()
+                                    ? planned.error
+                                    : memory_refusal(config, plan, planned, available);
+    rows.push_back({planned.name, fmt::format("{:.2f} GB", planned.cost.bytes / 1e9),
+                    clock_text(planned.cost.seconds),
+                    problem.empty() ? "" : "cannot run: " + problem});
+  }
+  return table(rows, "") + fmt::format("{} {}, about {}\n", count, count == 1 ? "job" : "jobs",
+                                       clock_text(seconds));
+}
+
+}  // namespace gramloom

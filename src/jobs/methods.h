@@ -1,0 +1,62 @@
+#pragma once
+
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "core/image.h"
+#include "core/progress.h"
+#include "core/random.h"
+#include "procedural/texture.h"
+
+namespace gramloom {
+
+/// Every method that a config can name: the one list of them. A method is one of these structs and
+/// the functions synthesise and estimate beside it.
+using Method = std::variant<ProceduralParams>;
+
+/// A method that makes a texture from a picture of one; the others need no exemplar.
+template <class Params>
+concept NeedsExemplar =
+    requires(const Params& params, const Image& exemplar, const Target& target, Random random,
+             const Control& control) { synthesise(params, exemplar, target, random, control); };
+
+/// A method that holds one of several sub-methods, chosen by their `name` under the key
+/// `variant_key`, in its member `texture`.
+template <class Params>
+concept HasVariant = requires { Params::variant_key; };
+
+std::string_view kind_of(const Method& method);
+bool needs_exemplar(const Method& method);
+
+/// Runs the method; `exemplar` is not looked at by one that needs none.
+Texture synthesise(const Method& method, const Image& exemplar, const Target& target, Random random,
+                   const Control& control);
+/// What it would need for an exemplar of this size and number of channels.
+Cost estimate(const Method& method, Size exemplar, int channels, const Target& target);
+
+namespace detail {
+template <class V, class F, std::size_t... I>
+void for_each_alternative(F&& f, std::index_sequence<I...>) {
+  (f(std::type_identity<std::variant_alternative_t<I, V>>{}), ...);
+}
+}  // namespace detail
+
+/// Calls f(std::type_identity<Alternative>{}) for every alternative of the variant V in order.
+template <class V, class F>
+void for_each_alternative(F&& f) {
+  detail::for_each_alternative<V>(f, std::make_index_sequence<std::variant_size_v<V>>{});
+}
+
+/// Calls f(field, value) for every parameter of `params` in order: its own, then those of the
+/// sub-method that it holds.
+template <class Params, class F>
+void for_each_parameter(Params& params, F&& f) {
+  for_each_field<std::remove_const_t<Params>>(
+      [&](const auto& field) { f(field, params.*field.member); });
+  if constexpr (HasVariant<Params>)
+    std::visit([&](auto& held) { for_each_parameter(held, f); }, params.texture);
+}
+
+}  // namespace gramloom

@@ -1,0 +1,143 @@
+#include "jobs/plan.h"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/resize.h"
+#include "jobs/settings.h"
+
+namespace gramloom {
+
+namespace {
+
+const ExemplarFacts& facts_of(const Plan& plan, const Job& job) {
+  static const ExemplarFacts none;
+  return job.exemplar ? plan.exemplars[*job.exemplar] : none;
+}
+
+ExemplarFacts look_at(const ExemplarEntry& exemplar) {
+  ExemplarFacts facts;
+  try {
+    facts.hash = file_hash(exemplar.image);
+    const ImageFile file = load_exemplar(exemplar);
+    facts.size = file.image.size();
+    facts.channels = file.image.channels;
+    facts.encoding = file.encoding;
+  } catch (const Error& error) {
+    facts.error = error.what();
+  }
+  return facts;
+}
+
+// The cost of a job, or why the method cannot do it. A ConfigError is for the user to mend first.
+void estimate_job(const Config& config, const Plan& plan, PlannedJob& planned) {
+  const MethodEntry& method = config.methods[planned.job.method];
+  const ExemplarFacts& facts = facts_of(plan, planned.job);
+  planned.error = facts.error;
+  if (!planned.error.empty()) return;
+  try {
+    planned.cost =
+        estimate(method.method, facts.size, facts.channels, {config.size, config.tile});
+  } catch (const ConfigError& error) {
+    throw ConfigError("{}: method '{}': {}", method.place, method.name, error.what());
+  } catch (const Error& error) {
+    planned.error = error.what();
+  }
+}
+
+bool matches(const std::string& pattern, const Config& config, const Job& job) {
+  const auto match = [&](const std::string& text) {
+    return fnmatch(pattern.c_str(), text.c_str(), 0) == 0;
+  };
+  return pattern.empty() || match(job_folder(config, job)) || match(job_name(config, job));
+}
+
+std::vector<Job> all_jobs(const Config& config) {
+  std::vector<Job> jobs;
+  const auto add = [&](std::optional<std::size_t> exemplar, bool with_exemplar) {
+    for (std::size_t method = 0; method < config.methods.size(); ++method)
+      if (needs_exemplar(config.methods[method].method) == with_exemplar)
+        for (const int seed : config.seeds) jobs.push_back({exemplar, method, seed});
+  };
+  add(std::nullopt, false);
+  for (std::size_t exemplar = 0; exemplar < config.exemplars.size(); ++exemplar)
+    add(exemplar, true);
+  return jobs;
+}
+
+}  // namespace
+
+std::string job_folder(const Config& config, const Job& job) {
+  return fmt::format("{}/{}",
+                     job.exemplar ? config.exemplars[*job.exemplar].name : procedural_folder,
+                     config.methods[job.method].name);
+}
+
+std::string job_name(const Config& config, const Job& job) {
+  return fmt::format("{}/seed{}", job_folder(config, job), job.seed);
+}
+
+ImageFile load_exemplar(const ExemplarEntry& exemplar) {
+  ImageFile file = read_image(exemplar.image);
+  if (exemplar.max_side) file.image = fit_longer_side(file.image, *exemplar.max_side);
+  return file;
+}
+
+Plan make_plan(const Config& config, const std::string& only) {
+  Plan plan;
+  for (const auto& exemplar : config.exemplars) plan.exemplars.push_back(look_at(exemplar));
+  for (const Job& job : all_jobs(config)) {
+    PlannedJob planned{job, job_name(config, job), {}, {}, matches(only, config, job)};
+    // Seeds cost the same.
+    const bool first_seed = plan.jobs.empty() || plan.jobs.back().job.method != job.method ||
+                            plan.jobs.back().job.exemplar != job.exemplar;
+    if (first_seed) {
+      estimate_job(config, plan, planned);
+    } else {
+      planned.cost = plan.jobs.back().cost;
+      planned.error = plan.jobs.back().error;
+    }
+    plan.jobs.push_back(std::move(planned));
+  }
+  if (std::none_of(plan.jobs.begin(), plan.jobs.end(),
+                   [](const auto& planned) { return planned.selected; }))
+    throw ConfigError("--only {}: no job of {} matches; they are called like {}", only,
+                      config.file.string(), plan.jobs.front().name);
+  return plan;
+}
+
+std::string memory_refusal(const Config& config, const Plan& plan, const PlannedJob& planned,
+                           double available) {
+  if (planned.cost.bytes <= available) return "";
+  const ExemplarFacts& facts = facts_of(plan, planned.job);
+  const auto scaled = [&](double scale) {
+    return Size{std::max(1, static_cast<int>(config.size.width * scale)),
+                std::max(1, static_cast<int>(config.size.height * scale))};
+  };
+  const auto fits = [&](Size size) {
+    try {
+      return estimate(config.methods[planned.job.method].method, facts.size, facts.channels,
+                      {size, config.tile})
+                 .bytes <= available;
+    } catch (const Error&) {
+      return false;
+    }
+  };
+  double low = 0;
+  double high = 1;
+  for (int step = 0; step < 20; ++step) {
+    const double middle = (low + high) / 2;
+    (fits(scaled(middle)) ? low : high) = middle;
+  }
+  const std::string needs =
+      fmt::format("needs about {:.1f} GB of memory, {:.1f} GB are free", planned.cost.bytes / 1e9,
+                  available / 1e9);
+  const Size largest = scaled(low);
+  if (low > 0 && largest.width >= 16 && largest.height >= 16)
+    return fmt::format("{}; size = [{}, {}] would fit", needs, largest.width, largest.height);
+  return needs + "; no size would fit: make the exemplar smaller (max_side) or the method cheaper";
+}
+
+}  // namespace gramloom

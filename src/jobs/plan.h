@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "io/image_file.h"
+#include "jobs/config.h"
+
+namespace gramloom {
+
+/// One texture to make, as indices into a Config; no exemplar for a method that needs none.
+struct Job {
+  std::optional<std::size_t> exemplar;
+  std::size_t method = 0;
+  int seed = 0;
+};
+
+/// "pebbles/quilting", "procedural/marble": the job's folder in the output folder.
+std::string job_folder(const Config& config, const Job& job);
+/// "pebbles/quilting/seed1": the job's name, and its files without their extension.
+std::string job_name(const Config& config, const Job& job);
+
+/// What is known of an exemplar before its jobs run.
+struct ExemplarFacts {
+  Size size;  // after max_side
+  int channels = 0;
+  Encoding encoding;
+  std::string hash;   // of the file's bytes
+  std::string error;  // why it cannot be read; its jobs fail with this
+};
+
+/// The exemplar's picture as methods see it, and its encoding. Throws Error.
+ImageFile load_exemplar(const ExemplarEntry& exemplar);
+
+/// A job and what it is expected to need.
+struct PlannedJob {
+  Job job;
+  std::string name;
+  Cost cost;
+  std::string error;     // why it cannot run; empty when it can
+  bool selected = true;  // false: --only leaves it out
+};
+
+/// All jobs of a config and what is known before they run.
+struct Plan {
+  std::vector<ExemplarFacts> exemplars;  // as in the config
+  std::vector<PlannedJob> jobs;
+};
+
+/// Reads every exemplar once and estimates every job. Selected are the jobs whose "exemplar/method"
+/// or "exemplar/method/seedN" matches the pattern `only` (* and ?), or all when it is empty. Throws
+/// ConfigError for parameters that a method refuses, and when no job matches.
+Plan make_plan(const Config& config, const std::string& only = "");
+
+/// "" when the job fits into `available` bytes; otherwise one line that says what would fit.
+std::string memory_refusal(const Config& config, const Plan& plan, const PlannedJob& job,
+                           double available);
+
+}  // namespace gramloom

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+#include "core/progress.h"
+
+namespace gramloom {
+
+/// How progress is shown: not at all, a line now and then, or a bar that is drawn over.
+enum class ProgressStyle { quiet, lines, bar };
+
+/// A bar where standard error is a terminal, lines elsewhere.
+ProgressStyle progress_style(bool quiet);
+
+/// One line on standard error, whatever becomes of it.
+void print_message(const std::string& line);
+
+/// "0:07", "12:34", "1:02:03"
+std::string clock_text(double seconds);
+
+/// Shows how far the jobs are, on standard error.
+class ProgressBar {
+ public:
+  explicit ProgressBar(ProgressStyle style) : style_(style) {}
+
+  /// Job `number` of `count` begins.
+  void start(const std::string& job, std::size_t number, std::size_t count);
+  void update(const Progress& progress);
+  /// A line that stays: how a job went. Not shown when quiet.
+  void message(const std::string& line);
+  /// A line that stays and is always shown.
+  void complaint(const std::string& line);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void clear();
+
+  ProgressStyle style_;
+  std::string job_;
+  Clock::time_point started_;
+  Clock::time_point shown_;
+  std::int64_t first_step_ = -1;
+  double shown_part_ = 0;
+  bool bar_drawn_ = false;
+};
+
+}  // namespace gramloom

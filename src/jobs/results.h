@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/image_file.h"
+#include "jobs/config.h"
+#include "jobs/settings.h"
+
+namespace gramloom {
+
+/// The extension (".png") and encoding of a result of `config` whose exemplar was encoded like
+/// this. Throws Error when the config's format cannot hold so many channels.
+struct OutputFormat {
+  std::string extension;
+  Encoding encoding;
+};
+OutputFormat output_format(const Config& config, const Encoding& exemplar, int channels);
+
+/// Writes a texture and its maps as `name` + extension and `name`_<map> + extension in `folder`, and
+/// returns the names of the files, the texture's first. Their metadata is the settings and nothing
+/// that differs from run to run.
+std::vector<std::string> write_texture(const std::filesystem::path& folder, const std::string& name,
+                                       const Texture& texture, const OutputFormat& format,
+                                       const Json& settings);
+
+}  // namespace gramloom

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "jobs/config.h"
+#include "jobs/progress_bar.h"
+
+namespace gramloom {
+
+struct RunOptions {
+  std::filesystem::path output;  // the folder of all results
+  std::string only;              // pattern of the jobs to do; "": all
+  bool resume = false;           // keep finished jobs, go on with unfinished ones
+  std::function<bool()> stop;    // true once the user has asked to stop
+};
+
+/// How the jobs of a run went; `left` were not begun because the user asked to stop.
+struct RunSummary {
+  int done = 0;
+  int skipped = 0;  // finished before
+  int failed = 0;
+  int interrupted = 0;
+  int left = 0;
+};
+
+/// Does the jobs of a config one after another and leaves on disk, in `output`:
+///   run.json                         versions, machine, settings, every job's status
+///   <exemplar>/<method>/seed<N>.png  the texture (.exr, .tif), its maps as seed<N>_<map>.png
+///   <exemplar>/<method>/seed<N>.csv  the trace of an iterative method
+///   <exemplar>/<method>/seed<N>.json the record, written last
+///   <exemplar>/<method>/seed<N>.checkpoint[.csv]  state of an unfinished job
+/// A job that fails says so in its record and does not stop the others. A finished result stays as
+/// it is until the one that replaces it is complete, or has failed.
+/// Throws ConfigError before any work when a method refuses its parameters, when no job matches, or
+/// when `output` cannot be written.
+RunSummary run(const Config& config, const RunOptions& options, ProgressBar& bar);
+
+}  // namespace gramloom

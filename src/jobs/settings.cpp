@@ -1,0 +1,100 @@
+#include "jobs/settings.h"
+
+#include "io/text_file.h"
+
+namespace gramloom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Those fields of a struct that are its own (not its sub-structs), as a JSON object.
+template <class Struct>
+Json fields_to_json(const Struct& value, const fs::path& folder) {
+  Json json;
+  for_each_field<Struct>([&](const auto& field) {
+    json[std::string(field.name)] = value_to_json(value.*field.member, folder);
+  });
+  return json;
+}
+
+// The content of every file that the method's parameters name.
+Json hashes_of_files(const Method& method) {
+  Json hashes = Json::object();
+  std::visit(
+      [&](const auto& params) {
+        for_each_parameter(params, [&]<class T>(const auto& field, const T& value) {
+          if constexpr (std::is_same_v<T, fs::path>)
+            if (std::error_code ignored; fs::is_regular_file(value, ignored))
+              hashes[std::string(field.name)] = file_hash(value);
+        });
+      },
+      method);
+  return hashes;
+}
+
+}  // namespace
+
+Json method_to_json(const Method& method, const fs::path& folder) {
+  Json json{{"kind", kind_of(method)}};
+  std::visit(
+      [&]<class Params>(const Params& params) {
+        if constexpr (HasVariant<Params>)
+          json[std::string(Params::variant_key)] = std::visit(
+              []<class T>(const T&) { return std::string(T::name); }, params.texture);
+        for_each_parameter(params, [&](const auto& field, const auto& value) {
+          json[std::string(field.name)] = value_to_json(value, folder);
+        });
+      },
+      method);
+  return json;
+}
+
+Json job_settings(const Config& config, const Plan& plan, const Job& job) {
+  const Method& method = config.methods[job.method].method;
+  Json settings{{"method", method_to_json(method, config.file.parent_path())}};
+  if (const Json files = hashes_of_files(method); !files.empty()) settings["files"] = files;
+  if (job.exemplar) {
+    const ExemplarEntry& exemplar = config.exemplars[*job.exemplar];
+    settings["exemplar"] = {{"image", exemplar.image.filename().string()},
+                            {"max_side", value_to_json(exemplar.max_side, {})},
+                            {"hash", plan.exemplars[*job.exemplar].hash}};
+  }
+  settings["seed"] = job.seed;
+  settings["size"] = value_to_json(config.size, {});
+  settings["tile"] = value_to_json(config.tile, {});
+  settings["format"] = value_to_json(config.format, {});
+  settings["pixel_type"] = value_to_json(config.pixel_type, {});
+  return settings;
+}
+
+Json config_to_json(const Config& config) {
+  const fs::path folder = config.file.parent_path();
+  Json json = fields_to_json(config, folder);
+  json["exemplar"] = Json::array();
+  for (const auto& exemplar : config.exemplars) {
+    Json entry{{"name", exemplar.name}};
+    entry.update(fields_to_json(exemplar, folder));
+    json["exemplar"].push_back(entry);
+  }
+  json["method"] = Json::array();
+  for (const auto& method : config.methods) {
+    Json entry{{"name", method.name}};
+    entry.update(method_to_json(method.method, folder));
+    json["method"].push_back(entry);
+  }
+  return json;
+}
+
+std::string hash_of(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char byte : bytes) {
+    hash ^= static_cast<unsigned char>(byte);
+    hash *= 0x100000001b3u;
+  }
+  return fmt::format("{:016x}", hash);
+}
+
+std::string file_hash(const fs::path& path) { return hash_of(read_text(path)); }
+
+}  // namespace gramloom

@@ -1,0 +1,231 @@
+#include "jobs/toml_reader.h"
+
+#include <algorithm>
+
+namespace gramloom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view set_option = "--set ";
+
+bool is_override(const toml::source_region& region) {
+  return region.path && region.path->starts_with(set_option);
+}
+
+std::string type_name(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table: return "a table";
+    case toml::node_type::array: return "a list";
+    case toml::node_type::string: return "a text";
+    case toml::node_type::integer: return "a whole number";
+    case toml::node_type::floating_point: return "a number with a fraction";
+    case toml::node_type::boolean: return "true or false";
+    default: return "a date or time";
+  }
+}
+
+[[noreturn]] void out_of_range(double value, bool integer, const detail::Slot& slot) {
+  if (integer)
+    fail(slot.region, "'{}' = {:.0f}: allowed are {}", slot.key, value,
+         describe(slot.range, true));
+  fail(slot.region, "'{}' = {}: allowed are {}", slot.key, value, describe(slot.range, false));
+}
+
+// The folder that paths at this place are relative to: the config's, or for --set the current one.
+fs::path folder_of(const toml::source_region& region) {
+  return region.path && !is_override(region) ? fs::path(*region.path).parent_path() : fs::path();
+}
+
+}  // namespace
+
+toml::table parse_toml(std::string_view text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    fail(error.source(), "{}", error.description());
+  }
+}
+
+toml::table parse_override(std::string_view key, std::string_view text,
+                           const std::string& option) {
+  const std::string name = std::string(set_option) + option;
+  toml::table parsed;
+  try {
+    parsed = toml::parse(fmt::format("value = {}", text), name);
+  } catch (const toml::parse_error&) {
+  }
+  if (parsed.size() != 1) {
+    parsed = toml::parse("value = ''", name);
+    parsed.get("value")->as_string()->get() = text;
+  }
+  toml::node& value = *parsed.get("value");
+  const toml::source_region region = value.source();
+  toml::table table;
+  table.insert_or_assign(toml::key(key, region), std::move(value));
+  return table;
+}
+
+std::string place(const toml::source_region& region) {
+  if (!region.path) return "config";
+  if (is_override(region) || region.begin.line == 0) return *region.path;
+  return fmt::format("{}:{}:{}", *region.path, region.begin.line, region.begin.column);
+}
+
+void check_keys(const toml::table& table, const std::vector<std::string>& known) {
+  for (const auto& [key, node] : table) {
+    if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
+    const std::string guess = closest_word(key.str(), known);
+    fail(key.source(), "unknown key '{}'{}", key.str(),
+         guess.empty() ? fmt::format(" (allowed are {})", fmt::join(known, ", "))
+                       : fmt::format(" (did you mean '{}'?)", guess));
+  }
+}
+
+const toml::source_region& key_region(const toml::table& table, std::string_view key) {
+  const auto found = table.find(key);
+  return found == table.end() ? table.source() : found->first.source();
+}
+
+std::size_t index_of_word(const std::string& word, const std::vector<std::string>& words,
+                          std::string_view key, const toml::source_region& region) {
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  const std::string guess = closest_word(word, words);
+  fail(region, "unknown {} '{}' ({})", key, word,
+       guess.empty() ? fmt::format("allowed are {}", fmt::join(words, ", "))
+                     : fmt::format("did you mean '{}'?", guess));
+}
+
+namespace detail {
+
+void wrong_type(const toml::node& node, const Slot& slot, const std::string& allowed) {
+  fail(slot.region, "'{}' is {}, allowed is {}", slot.key, type_name(node), allowed);
+}
+
+std::int64_t read_integer(const toml::node& node, const Slot& slot, const std::string& allowed) {
+  if (!node.is_integer()) wrong_type(node, slot, allowed);
+  const std::int64_t value = *node.value<std::int64_t>();
+  const auto number = static_cast<double>(value);
+  if (!slot.range.contains(number)) out_of_range(number, true, slot);
+  if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max())
+    fail(slot.region, "'{}' = {} is too large", slot.key, value);
+  return value;
+}
+
+double read_number(const toml::node& node, const Slot& slot, const std::string& allowed) {
+  if (!node.is_integer() && !node.is_floating_point()) wrong_type(node, slot, allowed);
+  const double value = *node.value<double>();
+  if (!slot.range.contains(value)) out_of_range(value, false, slot);
+  return value;
+}
+
+std::string read_string(const toml::node& node, const Slot& slot, const std::string& allowed) {
+  if (!node.is_string()) wrong_type(node, slot, allowed);
+  std::string text = node.as_string()->get();
+  if (text.find('\0') != std::string::npos)
+    fail(slot.region, "'{}' contains a zero character", slot.key);
+  return text;
+}
+
+fs::path read_path(const toml::node& node, const Slot& slot, const std::string& allowed) {
+  const fs::path path = read_string(node, slot, allowed);
+  // A bare word is a name that the method looks up, and nothing stays nothing.
+  if (path.empty() || (!path.has_parent_path() && !path.has_extension())) return path;
+  const fs::path file = (folder_of(slot.region) / path).lexically_normal();
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) fail(slot.region, "there is no file {}", file.string());
+  if (!fs::is_regular_file(file, ignored)) fail(slot.region, "{} is not a file", file.string());
+  return file;
+}
+
+}  // namespace detail
+
+std::string required_text(const toml::table& table, std::string_view key) {
+  const toml::node* node = table.get(key);
+  if (!node) fail(table.source(), "key '{}' is missing", key);
+  const detail::Slot slot{key, {}, key_region(table, key)};
+  std::string text = detail::read_string(*node, slot, "a text");
+  if (text.empty()) fail(slot.region, "'{}' is empty", key);
+  return text;
+}
+
+namespace {
+
+// The index of the alternative of the variant V that `word` names.
+template <class V, class NameOf>
+std::size_t alternative_named(const toml::table& table, std::string_view key, NameOf&& name_of) {
+  std::vector<std::string> names;
+  for_each_alternative<V>([&](auto type) { names.emplace_back(name_of(type)); });
+  return index_of_word(required_text(table, key), names, key, key_region(table, key));
+}
+
+// Calls f(type_identity<Alternative>) for the alternative of V with this index.
+template <class V, class F>
+void with_alternative(std::size_t wanted, F&& f) {
+  std::size_t index = 0;
+  for_each_alternative<V>([&](auto type) {
+    if (index++ == wanted) f(type);
+  });
+}
+
+template <class Params>
+void choose_texture(Params& params, const toml::table& table) {
+  using Textures = decltype(params.texture);
+  const std::size_t index = alternative_named<Textures>(
+      table, Params::variant_key,
+      []<class T>(std::type_identity<T>) { return std::string(T::name); });
+  with_alternative<Textures>(
+      index, [&]<class T>(std::type_identity<T>) { params.texture = T{}; });
+}
+
+// The method of `table` with the defaults of its kind, its sub-method chosen.
+Method default_method(const toml::table& table) {
+  const std::size_t index = alternative_named<Method>(
+      table, "kind", []<class T>(std::type_identity<T>) { return std::string(T::kind); });
+  Method method;
+  with_alternative<Method>(index, [&]<class Params>(std::type_identity<Params>) {
+    Params params;
+    if constexpr (HasVariant<Params>) choose_texture(params, table);
+    method = params;
+  });
+  return method;
+}
+
+std::vector<std::string> keys_of(const Method& method) {
+  std::vector<std::string> keys{"name", "kind"};
+  std::visit(
+      [&]<class Params>(const Params& params) {
+        if constexpr (HasVariant<Params>) keys.emplace_back(Params::variant_key);
+        for_each_parameter(params,
+                           [&](const auto& field, const auto&) { keys.emplace_back(field.name); });
+      },
+      method);
+  return keys;
+}
+
+}  // namespace
+
+Method read_method(const toml::table& table) {
+  Method method = default_method(table);
+  check_keys(table, keys_of(method));
+  std::visit(
+      [&]<class Params>(Params& params) {
+        read_fields(params, table);
+        if constexpr (HasVariant<Params>)
+          std::visit([&](auto& texture) { read_fields(texture, table); }, params.texture);
+      },
+      method);
+  return method;
+}
+
+std::vector<std::string> method_keys(const toml::table& table) {
+  try {
+    return keys_of(default_method(table));
+  } catch (const ConfigError&) {
+    return {};
+  }
+}
+
+}  // namespace gramloom

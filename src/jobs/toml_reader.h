@@ -1,0 +1,128 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "jobs/field_values.h"
+#include "jobs/methods.h"
+
+namespace gramloom {
+
+// TOML tables become structs through the structs' field lists. Every mistake is a ConfigError that
+// begins with its place: "configs/a.toml:12:3: " or "--set patch_size=0: ".
+
+/// `text` as TOML; `name` is what errors call it. Throws ConfigError.
+toml::table parse_toml(std::string_view text, const std::string& name);
+
+/// An override's table, whose nodes carry "--set key=value" as their place. `text` is taken as TOML
+/// where it is some, and as a word otherwise.
+toml::table parse_override(std::string_view key, std::string_view text, const std::string& option);
+
+/// "configs/a.toml:12:3" or "--set key=value".
+std::string place(const toml::source_region& region);
+
+template <class... Args>
+[[noreturn]] void fail(const toml::source_region& region, fmt::format_string<Args...> text,
+                       Args&&... args) {
+  throw ConfigError("{}: {}", place(region), fmt::format(text, std::forward<Args>(args)...));
+}
+
+/// Throws for the first key of `table` that is not among `known`.
+void check_keys(const toml::table& table, const std::vector<std::string>& known);
+
+/// The place of `key`, or of the table when it lacks the key.
+const toml::source_region& key_region(const toml::table& table, std::string_view key);
+
+/// `word` as the index of one of `words`; fails with a suggestion.
+std::size_t index_of_word(const std::string& word, const std::vector<std::string>& words,
+                          std::string_view key, const toml::source_region& region);
+
+namespace detail {
+
+// Where a value stands and what is allowed there.
+struct Slot {
+  std::string_view key;
+  Range range;
+  toml::source_region region;
+};
+
+[[noreturn]] void wrong_type(const toml::node& node, const Slot& slot, const std::string& allowed);
+std::int64_t read_integer(const toml::node& node, const Slot& slot, const std::string& allowed);
+double read_number(const toml::node& node, const Slot& slot, const std::string& allowed);
+std::string read_string(const toml::node& node, const Slot& slot, const std::string& allowed);
+std::filesystem::path read_path(const toml::node& node, const Slot& slot,
+                                const std::string& allowed);
+
+template <class T>
+T read_value(const toml::node& node, const Slot& slot) {
+  const std::string allowed = allowed_values<T>(slot.range);
+  if constexpr (is_optional<T>) {
+    return read_value<typename T::value_type>(node, slot);
+  } else if constexpr (std::is_same_v<T, bool>) {
+    if (!node.is_boolean()) wrong_type(node, slot, allowed);
+    return *node.value<bool>();
+  } else if constexpr (std::is_same_v<T, int>) {
+    return static_cast<int>(read_integer(node, slot, allowed));
+  } else if constexpr (std::is_same_v<T, double>) {
+    return read_number(node, slot, allowed);
+  } else if constexpr (std::is_same_v<T, Size>) {
+    if (!node.is_array()) {
+      const int side = static_cast<int>(read_integer(node, slot, allowed));
+      return {side, side};
+    }
+    const auto sides = read_value<std::vector<int>>(node, slot);
+    if (sides.size() != 2)
+      fail(slot.region, "'{}' has {} numbers, allowed is {}", slot.key, sides.size(), allowed);
+    return {sides[0], sides[1]};
+  } else if constexpr (NamedEnum<T>) {
+    const std::vector<std::string> words(enum_names<T>.begin(), enum_names<T>.end());
+    return static_cast<T>(
+        index_of_word(read_string(node, slot, allowed), words, slot.key, slot.region));
+  } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
+    return read_path(node, slot, allowed);
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    return read_string(node, slot, allowed);
+  } else {
+    if (!node.is_array()) wrong_type(node, slot, allowed);
+    T list;
+    for (const auto& element : *node.as_array())
+      list.push_back(
+          read_value<element_t<T>>(element, {slot.key, slot.range, element.source()}));
+    return list;
+  }
+}
+
+}  // namespace detail
+
+/// The names of Params' fields, after `others`.
+template <class Params>
+std::vector<std::string> key_names(std::vector<std::string> others = {}) {
+  for_each_field<Params>([&](const auto& field) { others.emplace_back(field.name); });
+  return others;
+}
+
+/// `params` with what `table` says for its fields; keys that are no field are not looked at.
+template <class Params>
+void read_fields(Params& params, const toml::table& table) {
+  for_each_field<Params>([&](const auto& field) {
+    using T = typename std::decay_t<decltype(field)>::value_type;
+    if (const toml::node* node = table.get(field.name))
+      params.*field.member = detail::read_value<T>(
+          *node, {field.name, field.range, key_region(table, field.name)});
+  });
+}
+
+/// The text under `key`, which must be there and not empty.
+std::string required_text(const toml::table& table, std::string_view key);
+
+/// The method of a [[method]] table: its `kind`, its parameters, and those of its sub-method.
+Method read_method(const toml::table& table);
+
+/// The keys that the method of this table may have, or none when its kind is not known.
+std::vector<std::string> method_keys(const toml::table& table);
+
+}  // namespace gramloom
