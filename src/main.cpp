@@ -79,10 +79,10 @@ ExitCode run_command(const Arguments& arguments) {
   ProgressBar bar(progress_style(arguments.quiet));
   const RunSummary summary = run(config, options, bar);
   if (summary.interrupted + summary.left > 0) {
-    bar.complaint(fmt::format("gramloom: interrupted, {} of {} jobs are left; --resume goes on",
-                              summary.interrupted + summary.left,
-                              summary.done + summary.skipped + summary.failed +
-                                  summary.interrupted + summary.left));
+    bar.complaint(fmt::format(
+        "gramloom: interrupted, {} of {} jobs are left; --resume goes on",
+        summary.interrupted + summary.left,
+        summary.done + summary.skipped + summary.failed + summary.interrupted + summary.left));
     return interrupted;
   }
   return summary.failed > 0 ? job_failed : all_done;
@@ -106,12 +106,14 @@ ExitCode list_command(const Arguments& arguments) {
 
 void add_config_options(CLI::App& command, Arguments& arguments) {
   command.add_option("config", arguments.config, "config file (TOML)")->required();
-  command.add_option("--only", arguments.only,
-                     "only jobs whose exemplar/method or exemplar/method/seedN matches: * and ?")
+  command
+      .add_option("--only", arguments.only,
+                  "only jobs whose exemplar/method or exemplar/method/seedN matches: * and ?")
       ->type_name("GLOB");
-  command.add_option("--set", arguments.set,
-                     "in place of what the config says: a top-level key, a parameter of every "
-                     "method that has it, or method.NAME.key")
+  command
+      .add_option("--set", arguments.set,
+                  "in place of what the config says: a top-level key, a parameter of every "
+                  "method that has it, or method.NAME.key")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->allow_extra_args(false)
@@ -120,8 +122,9 @@ void add_config_options(CLI::App& command, Arguments& arguments) {
 
 void add_run(CLI::App& app, Arguments& arguments) {
   CLI::App* run = app.add_subcommand(
-      "run", "Do the jobs of a config. Results of an earlier run into the same folder are replaced "
-             "as each job completes; with --resume, finished ones are kept.");
+      "run",
+      "Do the jobs of a config. Results of an earlier run into the same folder are replaced "
+      "as each job completes; with --resume, finished ones are kept.");
   add_config_options(*run, arguments);
   run->add_option("--output", arguments.output, "folder of the results (out/<config's name>)")
       ->type_name("DIR");
@@ -137,8 +140,7 @@ ExitCode dispatch(int argc, char** argv) {
   CLI::App app("New textures from a small picture of one.", "gramloom");
   app.set_version_flag("--version", fmt::format("gramloom {}", version()));
   app.require_subcommand(1);
-  app.footer(
-      "Exit code: 0 all done; 1 a job failed; 2 bad usage or config; 130 interrupted.");
+  app.footer("Exit code: 0 all done; 1 a job failed; 2 bad usage or config; 130 interrupted.");
   add_run(app, arguments);
   add_config_options(
       *app.add_subcommand("check",
@@ -154,7 +156,7 @@ ExitCode dispatch(int argc, char** argv) {
   } catch (const CLI::Success&) {
     // --help, of the program or of a command.
     const auto commands = app.get_subcommands();
-    return print(commands.empty() ? app.help() : commands.front()->help());
+    return print(commands.empty() ? app.help() : commands.front()->help(app.get_name()));
   } catch (const CLI::ParseError& error) {
     throw ConfigError("{} (see --help)", error.what());
   }

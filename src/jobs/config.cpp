@@ -4,8 +4,9 @@
 #include <set>
 
 #include "io/text_file.h"
+#include "io/toml_reader.h"
+#include "jobs/method_reader.h"
 #include "jobs/overrides.h"
-#include "jobs/toml_reader.h"
 
 namespace gramloom {
 
@@ -20,7 +21,8 @@ std::string read_name(const toml::table& table, std::set<std::string>& taken) {
   const std::string name = required_text(table, "name");
   const toml::source_region& region = key_region(table, "name");
   const bool unfit = std::any_of(name.begin(), name.end(), [](char c) {
-    return static_cast<unsigned char>(c) < 32 || std::string_view("/\\:*?\"<>|").contains(c);
+    return static_cast<unsigned char>(c) < 32 ||
+           std::string_view("/\\:*?\"<>|").find(c) != std::string_view::npos;
   });
   if (unfit || name.front() == '.' || name.front() == ' ' || name.back() == ' ')
     fail(region, "name '{}' is not fit for a file name", name);
@@ -68,8 +70,7 @@ void check_seeds(const Config& config, const toml::table& table) {
 // What only shows when all is read.
 void check_whole(const Config& config, const toml::table& table) {
   check_seeds(config, table);
-  if (config.methods.empty())
-    throw ConfigError("{}: there is no [[method]]", config.file.string());
+  if (config.methods.empty()) throw ConfigError("{}: there is no [[method]]", config.file.string());
   for (const auto& method : config.methods)
     if (needs_exemplar(method.method) && config.exemplars.empty())
       throw ConfigError("{}: method '{}' needs an [[exemplar]]", method.place, method.name);

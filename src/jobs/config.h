@@ -74,8 +74,9 @@ struct Config {
 inline constexpr std::string_view procedural_folder = "procedural";
 
 /// Reads a config file and checks all that can be known without reading a picture; `overrides` are
-/// "key=value" (a top-level key, or a parameter of every method that has it), "method.NAME.key=value"
-/// or "exemplar.NAME.key=value". Throws ConfigError, which says where the mistake is.
+/// "key=value" (a top-level key, or a parameter of every method that has it),
+/// "method.NAME.key=value" or "exemplar.NAME.key=value". Throws ConfigError, which says where the
+/// mistake is.
 Config read_config(const std::filesystem::path& file,
                    const std::vector<std::string>& overrides = {});
 

@@ -10,14 +10,15 @@ namespace fs = std::filesystem;
 
 JobFiles job_files(const fs::path& output, const std::string& job) {
   const fs::path stem = output / job;
-  return {stem.parent_path(),  stem.filename().string(),    stem.string() + ".json",
+  return {stem.parent_path(),     stem.filename().string(),      stem.string() + ".json",
           stem.string() + ".csv", stem.string() + ".checkpoint", stem.string() + ".checkpoint.csv"};
 }
 
 void create_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (!error && !fs::is_directory(folder, error)) error = std::make_error_code(std::errc::not_a_directory);
+  if (!error && !fs::is_directory(folder, error))
+    error = std::make_error_code(std::errc::not_a_directory);
   if (error) throw Error("cannot make the folder {}: {}", folder.string(), error.message());
 }
 
@@ -35,7 +36,8 @@ void remove_stale_temporaries(const JobFiles& files) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(files.folder, ignored)) {
     const std::string name = entry.path().filename().string();
-    const bool ours = name.starts_with("." + files.name + ".") || name.starts_with("." + files.name + "_");
+    const bool ours =
+        name.starts_with("." + files.name + ".") || name.starts_with("." + files.name + "_");
     if (ours && name.ends_with(".tmp")) remove_file(entry.path());
   }
 }

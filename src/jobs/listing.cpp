@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <fstream>
 
+#include "core/variants.h"
+#include "io/field_values.h"
 #include "jobs/memory.h"
 #include "jobs/progress_bar.h"
 
@@ -27,8 +29,7 @@ std::string table(const std::vector<Row>& rows, std::string_view indent) {
   std::string text;
   for (const auto& row : rows) {
     std::string line(indent);
-    for (std::size_t i = 0; i < row.size(); ++i)
-      line += fmt::format("{:<{}}  ", row[i], widths[i]);
+    for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format("{:<{}}  ", row[i], widths[i]);
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
   return text;
@@ -43,8 +44,7 @@ std::vector<Row> parameter_rows() {
     using T = typename std::decay_t<decltype(field)>::value_type;
     const std::string unit = field.unit.empty() ? "" : fmt::format(" ({})", field.unit);
     rows.push_back({std::string(field.name), "= " + value_to_text(defaults.*field.member),
-                    allowed_values<T>(field.range),
-                    fmt::format("{}{}", field.meaning, unit)});
+                    allowed_values<T>(field.range), fmt::format("{}{}", field.meaning, unit)});
   });
   return rows;
 }
@@ -76,8 +76,9 @@ std::string list_methods() {
     text += fmt::format("{}: {}\n", Params::kind, Params::summary);
     std::vector<Row> rows = parameter_rows<Params>();
     if constexpr (HasVariant<Params>)
-      rows.insert(rows.begin(), {std::string(Params::variant_key), "", "a name",
-                                 "which one, with its own parameters: see 'gramloom list patterns'"});
+      rows.insert(rows.begin(),
+                  {std::string(Params::variant_key), "", "a name",
+                   "which one, with its own parameters: see 'gramloom list patterns'"});
     text += table(rows, "  ") + "\n";
   });
   return text;
@@ -112,15 +113,14 @@ std::string job_table(const Config& config, const Plan& plan) {
     if (!planned.selected) continue;
     ++count;
     seconds += planned.cost.seconds;
-    const std::string problem = !planned.error.empty()
-                                    ? planned.error
-                                    : memory_refusal(config, plan, planned, available);
+    const std::string problem =
+        !planned.error.empty() ? planned.error : memory_refusal(config, plan, planned, available);
     rows.push_back({planned.name, fmt::format("{:.2f} GB", planned.cost.bytes / 1e9),
                     clock_text(planned.cost.seconds),
                     problem.empty() ? "" : "cannot run: " + problem});
   }
-  return table(rows, "") + fmt::format("{} {}, about {}\n", count, count == 1 ? "job" : "jobs",
-                                       clock_text(seconds));
+  return table(rows, "") +
+         fmt::format("{} {}, about {}\n", count, count == 1 ? "job" : "jobs", clock_text(seconds));
 }
 
 }  // namespace gramloom

@@ -11,7 +11,7 @@ bool needs_exemplar(const Method& method) {
   return std::visit([]<class Params>(const Params&) { return NeedsExemplar<Params>; }, method);
 }
 
-Texture synthesise(const Method& method, const Image& exemplar, const Target& target, Random random,
+Texture run_method(const Method& method, const Image& exemplar, const Target& target, Random random,
                    const Control& control) {
   return std::visit(
       [&]<class Params>(const Params& params) {
@@ -23,7 +23,7 @@ Texture synthesise(const Method& method, const Image& exemplar, const Target& ta
       method);
 }
 
-Cost estimate(const Method& method, Size exemplar, int channels, const Target& target) {
+Cost estimate_method(const Method& method, Size exemplar, int channels, const Target& target) {
   return std::visit(
       [&]<class Params>(const Params& params) {
         if constexpr (NeedsExemplar<Params>)

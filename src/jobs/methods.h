@@ -2,9 +2,9 @@
 
 #include <string_view>
 #include <type_traits>
-#include <utility>
 #include <variant>
 
+#include "core/fields.h"
 #include "core/image.h"
 #include "core/progress.h"
 #include "core/random.h"
@@ -18,36 +18,27 @@ using Method = std::variant<ProceduralParams>;
 
 /// A method that makes a texture from a picture of one; the others need no exemplar.
 template <class Params>
-concept NeedsExemplar =
-    requires(const Params& params, const Image& exemplar, const Target& target, Random random,
-             const Control& control) { synthesise(params, exemplar, target, random, control); };
+concept NeedsExemplar = requires(const Params& params, const Image& exemplar, const Target& target,
+                                 Random random, const Control& control) {
+  synthesise(params, exemplar, target, random, control);
+};
 
 /// A method that holds one of several sub-methods, chosen by their `name` under the key
 /// `variant_key`, in its member `texture`.
 template <class Params>
-concept HasVariant = requires { Params::variant_key; };
+concept HasVariant = requires {
+  Params::variant_key;
+};
 
 std::string_view kind_of(const Method& method);
 bool needs_exemplar(const Method& method);
 
-/// Runs the method; `exemplar` is not looked at by one that needs none.
-Texture synthesise(const Method& method, const Image& exemplar, const Target& target, Random random,
+/// Runs the method; `exemplar` is not looked at by one that needs none. (Not called synthesise: as
+/// a params struct converts to a Method, every method would seem to need an exemplar.)
+Texture run_method(const Method& method, const Image& exemplar, const Target& target, Random random,
                    const Control& control);
 /// What it would need for an exemplar of this size and number of channels.
-Cost estimate(const Method& method, Size exemplar, int channels, const Target& target);
-
-namespace detail {
-template <class V, class F, std::size_t... I>
-void for_each_alternative(F&& f, std::index_sequence<I...>) {
-  (f(std::type_identity<std::variant_alternative_t<I, V>>{}), ...);
-}
-}  // namespace detail
-
-/// Calls f(std::type_identity<Alternative>{}) for every alternative of the variant V in order.
-template <class V, class F>
-void for_each_alternative(F&& f) {
-  detail::for_each_alternative<V>(f, std::make_index_sequence<std::variant_size_v<V>>{});
-}
+Cost estimate_method(const Method& method, Size exemplar, int channels, const Target& target);
 
 /// Calls f(field, value) for every parameter of `params` in order: its own, then those of the
 /// sub-method that it holds.

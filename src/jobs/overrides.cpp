@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
+#include "io/toml_reader.h"
 #include "jobs/config.h"
-#include "jobs/toml_reader.h"
+#include "jobs/method_reader.h"
 
 namespace gramloom {
 

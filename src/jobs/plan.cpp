@@ -39,7 +39,7 @@ void estimate_job(const Config& config, const Plan& plan, PlannedJob& planned) {
   if (!planned.error.empty()) return;
   try {
     planned.cost =
-        estimate(method.method, facts.size, facts.channels, {config.size, config.tile});
+        estimate_method(method.method, facts.size, facts.channels, {config.size, config.tile});
   } catch (const ConfigError& error) {
     throw ConfigError("{}: method '{}': {}", method.place, method.name, error.what());
   } catch (const Error& error) {
@@ -118,8 +118,8 @@ std::string memory_refusal(const Config& config, const Plan& plan, const Planned
   };
   const auto fits = [&](Size size) {
     try {
-      return estimate(config.methods[planned.job.method].method, facts.size, facts.channels,
-                      {size, config.tile})
+      return estimate_method(config.methods[planned.job.method].method, facts.size, facts.channels,
+                             {size, config.tile})
                  .bytes <= available;
     } catch (const Error&) {
       return false;
@@ -131,9 +131,8 @@ std::string memory_refusal(const Config& config, const Plan& plan, const Planned
     const double middle = (low + high) / 2;
     (fits(scaled(middle)) ? low : high) = middle;
   }
-  const std::string needs =
-      fmt::format("needs about {:.1f} GB of memory, {:.1f} GB are free", planned.cost.bytes / 1e9,
-                  available / 1e9);
+  const std::string needs = fmt::format("needs about {:.1f} GB of memory, {:.1f} GB are free",
+                                        planned.cost.bytes / 1e9, available / 1e9);
   const Size largest = scaled(low);
   if (low > 0 && largest.width >= 16 && largest.height >= 16)
     return fmt::format("{}; size = [{}, {}] would fit", needs, largest.width, largest.height);

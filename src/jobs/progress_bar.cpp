@@ -34,13 +34,13 @@ std::size_t terminal_width() {
 
 double part_done(const Progress& progress) {
   if (progress.steps <= 0) return 0;
-  return std::clamp(
-      static_cast<double>(progress.step) / static_cast<double>(progress.steps), 0.0, 1.0);
+  return std::clamp(static_cast<double>(progress.step) / static_cast<double>(progress.steps), 0.0,
+                    1.0);
 }
 
 std::string bar(double part) {
   const auto full = static_cast<std::size_t>(std::lround(part * bar_width));
-  return "[" + std::string(full, '#') + std::string(bar_width - full, '-') + "]";
+  return fmt::format("[{:-<{}}]", std::string(full, '#'), bar_width);
 }
 
 }  // namespace
@@ -76,9 +76,9 @@ void ProgressBar::update(const Progress& progress) {
   }
   const double part = part_done(progress);
   const double waited = seconds_since(shown_);
-  if (style_ == ProgressStyle::bar ? waited < bar_interval
-                                   : waited < line_interval && (waited < shortest_line ||
-                                                                part < shown_part_ + line_part))
+  if (style_ == ProgressStyle::bar
+          ? waited < bar_interval
+          : waited < line_interval && (waited < shortest_line || part < shown_part_ + line_part))
     return;
   shown_ = Clock::now();
   shown_part_ = part;
@@ -86,8 +86,9 @@ void ProgressBar::update(const Progress& progress) {
   std::string text = fmt::format("{:3.0f}%  step {}/{}", part * 100, progress.step, progress.steps);
   if (std::isfinite(progress.loss)) text += fmt::format("  loss {:.3e}", progress.loss);
   if (const auto steps = progress.step - first_step_; steps > 0)
-    text += fmt::format("  {} left", clock_text(seconds_since(started_) / static_cast<double>(steps) *
-                                                static_cast<double>(progress.steps - progress.step)));
+    text +=
+        fmt::format("  {} left", clock_text(seconds_since(started_) / static_cast<double>(steps) *
+                                            static_cast<double>(progress.steps - progress.step)));
   if (style_ == ProgressStyle::lines) {
     put(fmt::format("{}: {}\n", job_, text));
   } else {

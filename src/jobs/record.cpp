@@ -39,7 +39,8 @@ Json record_to_json(const JobRecord& record) {
 
 void write_record(const fs::path& file, const JobRecord& record) {
   // A path may hold bytes that are not UTF-8: better a replaced letter than no record.
-  write_text(file, record_to_json(record).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_text(file,
+             record_to_json(record).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 std::optional<JobRecord> read_record(const fs::path& file) {
@@ -83,13 +84,11 @@ bool is_finished(const std::optional<JobRecord>& record, const fs::path& folder)
 std::string reason_to_run(const std::optional<JobRecord>& record, const Json& settings,
                           const fs::path& folder) {
   if (!record) return "not done before";
-  if (record->status != Status::done)
-    return fmt::format("was {} before", to_word(record->status));
+  if (record->status != Status::done) return fmt::format("was {} before", to_word(record->status));
   if (!is_finished(record, folder)) return "its picture is gone";
   const Json changes = Json::diff(record->settings, settings);
   if (changes.empty()) return "";
-  return fmt::format("{} changed since",
-                     changes.front().at("path").get<std::string>().substr(1));
+  return fmt::format("{} changed since", changes.front().at("path").get<std::string>().substr(1));
 }
 
 }  // namespace gramloom

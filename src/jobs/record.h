@@ -13,8 +13,8 @@ namespace gramloom {
 
 enum class Status { done, failed, interrupted };
 template <>
-inline constexpr auto enum_names<Status> =
-    std::to_array<std::string_view>({"done", "failed", "interrupted"});
+inline constexpr auto enum_names<Status> = std::to_array<std::string_view>({"done", "failed",
+                                                                            "interrupted"});
 
 /// How an iterative method's loss went.
 struct LossSummary {

@@ -15,9 +15,12 @@ FileFormat choose_format(const Config& config, PixelType type, int channels) {
 
 bool can_hold(FileFormat format, int channels) {
   switch (format) {
-    case FileFormat::png: return channels <= 4;
-    case FileFormat::jpg: return channels == 1 || channels == 3;
-    default: return true;
+    case FileFormat::png:
+      return channels <= 4;
+    case FileFormat::jpg:
+      return channels == 1 || channels == 3;
+    default:
+      return true;
   }
 }
 
@@ -25,8 +28,8 @@ bool can_hold(FileFormat format, int channels) {
 Encoding map_encoding(const Image& map, const Image& texture, const Encoding& encoding) {
   if (map.channels == texture.channels) return encoding;
   Encoding of_map;
-  of_map.pixel_type = encoding.pixel_type == PixelType::uint8 ? PixelType::uint16
-                                                              : encoding.pixel_type;
+  of_map.pixel_type =
+      encoding.pixel_type == PixelType::uint8 ? PixelType::uint16 : encoding.pixel_type;
   return of_map;
 }
 
@@ -57,8 +60,8 @@ std::vector<std::string> write_texture(const std::filesystem::path& folder, cons
   write_image(folder / files.front(), texture.image, format.encoding, metadata);
   for (const auto& [map_name, map] : texture.maps) {
     files.push_back(fmt::format("{}_{}{}", name, map_name, format.extension));
-    write_image(folder / files.back(), map,
-                map_encoding(map, texture.image, format.encoding), metadata);
+    write_image(folder / files.back(), map, map_encoding(map, texture.image, format.encoding),
+                metadata);
   }
   return files;
 }

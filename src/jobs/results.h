@@ -18,9 +18,9 @@ struct OutputFormat {
 };
 OutputFormat output_format(const Config& config, const Encoding& exemplar, int channels);
 
-/// Writes a texture and its maps as `name` + extension and `name`_<map> + extension in `folder`, and
-/// returns the names of the files, the texture's first. Their metadata is the settings and nothing
-/// that differs from run to run.
+/// Writes a texture and its maps as `name` + extension and `name`_<map> + extension in `folder`,
+/// and returns the names of the files, the texture's first. Their metadata is the settings and
+/// nothing that differs from run to run.
 std::vector<std::string> write_texture(const std::filesystem::path& folder, const std::string& name,
                                        const Texture& texture, const OutputFormat& format,
                                        const Json& settings);

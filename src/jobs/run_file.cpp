@@ -18,12 +18,9 @@ Json job_state(const std::optional<JobRecord>& record) {
 
 RunFile::RunFile(const Config& config, const Plan& plan, const std::filesystem::path& output)
     : file_(output / "run.json") {
-  content_ = {{"versions", versions_to_json()},
-              {"machine", machine_to_json()},
-              {"config", config.file.string()},
-              {"config_text", config.text},
-              {"set", config.overrides},
-              {"settings", config_to_json(config)},
+  content_ = {{"versions", versions_to_json()}, {"machine", machine_to_json()},
+              {"config", config.file.string()}, {"config_text", config.text},
+              {"set", config.overrides},        {"settings", config_to_json(config)},
               {"jobs", Json::object()}};
   for (const auto& job : plan.jobs)
     content_["jobs"][job.name] = job_state(read_record(output / (job.name + ".json")));

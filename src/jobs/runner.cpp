@@ -55,8 +55,7 @@ JobRecord new_record(const Run& run, const Job& job) {
 
 void refuse_if_impossible(const Run& run, const PlannedJob& planned) {
   if (!planned.error.empty()) throw Error("{}", planned.error);
-  const std::string refusal =
-      memory_refusal(run.config, run.plan, planned, available_memory());
+  const std::string refusal = memory_refusal(run.config, run.plan, planned, available_memory());
   if (!refusal.empty()) throw Error("{}", refusal);
 }
 
@@ -78,17 +77,16 @@ Made make_texture(Run& run, const PlannedJob& planned, const JobFiles& files, Tr
     return !made.stopped;
   };
   // The seed alone: a texture does not change when its exemplar or method is given another name.
-  made.texture =
-      synthesise(run.config.methods[job.method].method, exemplar_of(run, job).image,
-                 {run.config.size, run.config.tile},
-                 Random(static_cast<std::uint64_t>(job.seed)), control);
+  made.texture = run_method(run.config.methods[job.method].method, exemplar_of(run, job).image,
+                            {run.config.size, run.config.tile},
+                            Random(static_cast<std::uint64_t>(job.seed)), control);
   return made;
 }
 
 void write_results(Run& run, const PlannedJob& planned, const JobFiles& files,
                    const Texture& texture, const TraceLog& trace, JobRecord& record) {
-  const OutputFormat format = output_format(
-      run.config, exemplar_of(run, planned.job).encoding, texture.image.channels);
+  const OutputFormat format =
+      output_format(run.config, exemplar_of(run, planned.job).encoding, texture.image.channels);
   record.files = write_texture(files.folder, files.name, texture, format, record.settings);
   record.loss = summarise(trace.trace());
   if (record.loss)
@@ -128,7 +126,8 @@ void do_job(Run& run, const PlannedJob& planned, const JobFiles& files, bool kee
 std::string outcome(const PlannedJob& planned, const JobRecord& record) {
   if (record.status == Status::failed)
     return fmt::format("{}: failed: {}", planned.name, record.error);
-  std::string text = fmt::format("{}: {} in {:.1f} s", planned.name, to_word(record.status), record.seconds);
+  std::string text =
+      fmt::format("{}: {} in {:.1f} s", planned.name, to_word(record.status), record.seconds);
   if (record.loss) text += fmt::format(", loss {:.3e}", record.loss->last);
   return text;
 }
@@ -154,7 +153,8 @@ JobRecord run_job(Run& run, const PlannedJob& planned, std::size_t number, std::
     if (!keep_old) write_record(files.record, record);
     run.bar.start(planned.name, number, count);
     do_job(run, planned, files, keep_old, record);
-    if (before && record.status == Status::done) remove_replaced(files, before->files, record.files);
+    if (before && record.status == Status::done)
+      remove_replaced(files, before->files, record.files);
   } catch (const Interrupted&) {
     record.status = Status::interrupted;
   } catch (const std::bad_alloc&) {
@@ -173,8 +173,8 @@ JobRecord run_job(Run& run, const PlannedJob& planned, std::size_t number, std::
 bool skip_finished(Run& run, const PlannedJob& planned) {
   const JobFiles files = job_files(run.options.output, planned.name);
   const auto before = read_record(files.record);
-  const std::string reason = reason_to_run(
-      before, job_settings(run.config, run.plan, planned.job), files.folder);
+  const std::string reason =
+      reason_to_run(before, job_settings(run.config, run.plan, planned.job), files.folder);
   if (reason.empty()) {
     remove_unfinished_state(files);
     run.bar.message(fmt::format("{}: finished before", planned.name));
@@ -196,9 +196,15 @@ RunFile prepare_output(const Config& config, const Plan& plan, const fs::path& o
 
 void count_outcome(RunSummary& summary, Status status) {
   switch (status) {
-    case Status::done: ++summary.done; break;
-    case Status::failed: ++summary.failed; break;
-    case Status::interrupted: ++summary.interrupted; break;
+    case Status::done:
+      ++summary.done;
+      break;
+    case Status::failed:
+      ++summary.failed;
+      break;
+    case Status::interrupted:
+      ++summary.interrupted;
+      break;
   }
 }
 

@@ -1,5 +1,6 @@
 #include "jobs/settings.h"
 
+#include "io/field_values.h"
 #include "io/text_file.h"
 
 namespace gramloom {
@@ -40,8 +41,8 @@ Json method_to_json(const Method& method, const fs::path& folder) {
   std::visit(
       [&]<class Params>(const Params& params) {
         if constexpr (HasVariant<Params>)
-          json[std::string(Params::variant_key)] = std::visit(
-              []<class T>(const T&) { return std::string(T::name); }, params.texture);
+          json[std::string(Params::variant_key)] =
+              std::visit([]<class T>(const T&) { return std::string(T::name); }, params.texture);
         for_each_parameter(params, [&](const auto& field, const auto& value) {
           json[std::string(field.name)] = value_to_json(value, folder);
         });

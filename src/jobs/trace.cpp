@@ -34,8 +34,8 @@ std::vector<std::string> split(const std::string& line) {
 }
 
 TraceRow parse_row(const std::vector<std::string>& cells) {
-  TraceRow row{std::stoll(cells[0]), std::stoll(cells[1]), std::stod(cells[2]),
-               std::stod(cells[3]), {}};
+  TraceRow row{
+      std::stoll(cells[0]), std::stoll(cells[1]), std::stod(cells[2]), std::stod(cells[3]), {}};
   for (std::size_t i = fixed_columns; i < cells.size(); ++i)
     row.terms.push_back(std::stod(cells[i]));
   return row;
@@ -57,7 +57,8 @@ Trace parse_trace(const std::string& csv) {
     if (line.starts_with('#')) continue;
     const auto cells = split(line);
     if (!named) {
-      if (cells.size() > fixed_columns) trace.terms.assign(cells.begin() + fixed_columns, cells.end());
+      if (cells.size() > fixed_columns)
+        trace.terms.assign(cells.begin() + fixed_columns, cells.end());
       named = true;
     } else if (cells.size() == fixed_columns + trace.terms.size()) {
       try {
@@ -71,7 +72,8 @@ Trace parse_trace(const std::string& csv) {
 }
 
 TraceLog::TraceLog(std::filesystem::path file, std::string mark)
-    : file_(std::move(file)), mark_("# " + std::move(mark) + "\n"),
+    : file_(std::move(file)),
+      mark_("# " + std::move(mark) + "\n"),
       start_(std::chrono::steady_clock::now()) {
   try {
     const std::string text = read_text(file_);
