@@ -4,6 +4,10 @@
 #include <type_traits>
 #include <variant>
 
+#include "classic/histogram.h"
+#include "classic/phase.h"
+#include "classic/pyramid.h"
+#include "classic/quilting.h"
 #include "core/fields.h"
 #include "core/image.h"
 #include "core/progress.h"
@@ -14,7 +18,8 @@ namespace gramloom {
 
 /// Every method that a config can name: the one list of them. A method is one of these structs and
 /// the functions synthesise and estimate beside it.
-using Method = std::variant<ProceduralParams>;
+using Method =
+    std::variant<ProceduralParams, QuiltingParams, PyramidParams, PhaseParams, HistogramParams>;
 
 /// A method that makes a texture from a picture of one; the others need no exemplar.
 template <class Params>

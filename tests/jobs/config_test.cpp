@@ -1,0 +1,256 @@
+#include "jobs/config.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "io/text_file.h"
+#include "jobs/plan.h"
+
+namespace gramloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string noise = "[[method]]\nname = 'n'\nkind = 'procedural'\ntexture = 'noise'\n";
+const std::string exemplar = "[[exemplar]]\nname = 'e'\nimage = 'e.png'\n";
+const std::string quilting = "[[method]]\nname = 'q'\nkind = 'quilting'\n";
+
+// A folder with an exemplar beside the config "a.toml".
+class ConfigText : public testing::Test {
+ protected:
+  ConfigText() : folder_(fs::temp_directory_path() / fmt::format("gramloom_config_{}", getpid())) {
+    fs::create_directories(folder_);
+    write_image(folder_ / "e.png", Image(8, 6, 3, 0.5f), {});
+  }
+  ~ConfigText() override { fs::remove_all(folder_); }
+
+  Config parse(const std::string& text, const std::vector<std::string>& set = {}) const {
+    return parse_config(text, folder_ / "a.toml", set);
+  }
+
+  // What the error says, without the folder's name.
+  std::string complaint(const std::string& text, const std::vector<std::string>& set = {}) const {
+    try {
+      parse(text, set);
+    } catch (const ConfigError& error) {
+      std::string message = error.what();
+      const std::string prefix = folder_.string() + "/";
+      for (auto at = message.find(prefix); at != std::string::npos; at = message.find(prefix))
+        message.erase(at, prefix.size());
+      return message;
+    }
+    return "";
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(ConfigText, EveryExemplarTimesEveryMethodTimesEverySeed) {
+  const Config config =
+      parse("seeds = [1, 7]\nsize = [64, 32]\ntile = 'x'\n" + noise + exemplar + quilting);
+  EXPECT_EQ(config.size, (Size{64, 32}));
+  EXPECT_EQ(config.tile, Tile::x);
+  EXPECT_EQ(config.exemplars.at(0).image, folder_ / "e.png");
+  std::vector<std::string> names;
+  for (const auto& job : make_plan(config).jobs) names.push_back(job.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"procedural/n/seed1", "procedural/n/seed7",
+                                             "e/q/seed1", "e/q/seed7"}));
+}
+
+TEST_F(ConfigText, OneNumberIsASquare) {
+  EXPECT_EQ(parse("size = 48\n" + noise).size, (Size{48, 48}));
+}
+
+TEST_F(ConfigText, WholeNumbersServeAsNumbersButNotTheReverse) {
+  EXPECT_EQ(complaint(noise + "gain = 1\n"), "");
+  EXPECT_EQ(
+      complaint(noise + "octaves = 2.0\n"),
+      "a.toml:5:1: 'octaves' is a number with a fraction, allowed is a whole number, 1 to 16");
+}
+
+TEST_F(ConfigText, UnknownKeysAreNamedWithTheirPlace) {
+  EXPECT_EQ(complaint("sead = [1]\n" + noise),
+            "a.toml:1:1: unknown key 'sead' (did you mean 'seeds'?)");
+  EXPECT_EQ(complaint(exemplar + quilting + "  patchsize = 8\n"),
+            "a.toml:7:3: unknown key 'patchsize' (did you mean 'patch_size'?)");
+  EXPECT_EQ(complaint(exemplar + "max_sise = 8\n" + quilting),
+            "a.toml:4:1: unknown key 'max_sise' (did you mean 'max_side'?)");
+  EXPECT_NE(complaint(noise + "zzzzzzzz = 1\n").find("a.toml:5:1: unknown key 'zzzzzzzz' (allowed"),
+            std::string::npos);
+}
+
+TEST_F(ConfigText, WrongTypesSayWhatWasFoundAndWhatIsAllowed) {
+  EXPECT_EQ(complaint("seeds = 'one'\n" + noise),
+            "a.toml:1:1: 'seeds' is a text, allowed is a list of whole numbers, each 0 to "
+            "2147483647");
+  EXPECT_EQ(complaint("seeds = [1, 'one']\n" + noise),
+            "a.toml:1:13: 'seeds' is a text, allowed is a whole number, 0 to 2147483647");
+  EXPECT_EQ(complaint("tile = true\n" + noise),
+            "a.toml:1:1: 'tile' is true or false, allowed is one of none, x, y, both");
+  EXPECT_EQ(complaint("size = 1979-05-27\n" + noise),
+            "a.toml:1:1: 'size' is a date or time, allowed is [width, height] or one number for "
+            "both, each 1 to 65536");
+  EXPECT_EQ(complaint("method = 3\n"), "a.toml:1:1: 'method' must be a list of tables: [[method]]");
+  EXPECT_EQ(complaint("[method]\nname = 'n'\n"),
+            "a.toml:1:2: 'method' must be a list of tables: [[method]]");
+}
+
+TEST_F(ConfigText, ValuesOutOfRange) {
+  EXPECT_EQ(complaint(noise + "gain = 1.5\n"), "a.toml:5:1: 'gain' = 1.5: allowed are 0 to 1");
+  EXPECT_EQ(complaint(noise + "gain = nan\n"), "a.toml:5:1: 'gain' = nan: allowed are 0 to 1");
+  EXPECT_EQ(complaint(noise + "gain = inf\n"), "a.toml:5:1: 'gain' = inf: allowed are 0 to 1");
+  EXPECT_EQ(complaint("seeds = [1, -2]\n" + noise),
+            "a.toml:1:13: 'seeds' = -2: allowed are 0 to 2147483647");
+}
+
+TEST_F(ConfigText, SizesThatCannotBe) {
+  for (const std::string size : {"0", "-5", "[64, 0]", "[-1, 64]", "65537", "[9000000000, 1]"})
+    EXPECT_NE(complaint("size = " + size + "\n" + noise).find(": allowed are 1 to 65536"),
+              std::string::npos)
+        << size;
+  for (const std::string size : {"[]", "[64]", "[1, 2, 3]"})
+    EXPECT_NE(complaint("size = " + size + "\n" + noise).find("a.toml:1:1: 'size' has "),
+              std::string::npos)
+        << size;
+  EXPECT_NE(complaint("size = nan\n" + noise), "");
+}
+
+TEST_F(ConfigText, UnknownWords) {
+  EXPECT_EQ(complaint("tile = 'bth'\n" + noise),
+            "a.toml:1:1: unknown tile 'bth' (did you mean 'both'?)");
+  EXPECT_EQ(complaint(exemplar + "[[method]]\nname = 'q'\nkind = 'quiltin'\n"),
+            "a.toml:6:1: unknown kind 'quiltin' (did you mean 'quilting'?)");
+  EXPECT_NE(complaint("[[method]]\nname = 'n'\nkind = 'procedural'\ntexture = 'xyz'\n")
+                .find("a.toml:4:1: unknown texture 'xyz' (allowed are "),
+            std::string::npos);
+}
+
+TEST_F(ConfigText, MissingKeysAndTables) {
+  EXPECT_EQ(complaint("[[method]]\nname = 'n'\n"), "a.toml:1:1: key 'kind' is missing");
+  EXPECT_EQ(complaint("[[method]]\nname = 'n'\nkind = 'procedural'\n"),
+            "a.toml:1:1: key 'texture' is missing");
+  EXPECT_EQ(complaint(exemplar + "[[method]]\nkind = 'quilting'\n"),
+            "a.toml:4:1: key 'name' is missing");
+  EXPECT_EQ(complaint("[[exemplar]]\nname = 'e'\n" + quilting),
+            "a.toml:1:1: key 'image' is missing");
+  EXPECT_EQ(complaint(""), "a.toml: there is no [[method]]");
+  EXPECT_EQ(complaint(quilting), "a.toml:1:1: method 'q' needs an [[exemplar]]");
+}
+
+TEST_F(ConfigText, NamesThatAreNotFitForFiles) {
+  const auto with_name = [&](const std::string& name) {
+    return complaint("[[method]]\nkind = 'procedural'\ntexture = 'noise'\nname = " + name + "\n");
+  };
+  for (const std::string name : {"'a/b'", "'..'", "'.hidden'", "'a\\b'", "\"a\\u0000b\"",
+                                 "\"a\\nb\"", "'a*'", "' a'", "''", "5"})
+    EXPECT_TRUE(with_name(name).starts_with("a.toml:4:1: ")) << name << ": " << with_name(name);
+  EXPECT_TRUE(with_name("'" + std::string(101, 'a') + "'").starts_with("a.toml:4:1: "));
+  EXPECT_EQ(with_name("'brick wall, größer'"), "");
+}
+
+TEST_F(ConfigText, NamesAndSeedsThatAreThereTwice) {
+  EXPECT_EQ(complaint(noise + noise), "a.toml:6:1: name 'n' is there twice");
+  EXPECT_EQ(complaint(exemplar + exemplar + quilting), "a.toml:5:1: name 'e' is there twice");
+  EXPECT_EQ(complaint("seeds = [1, 2, 1]\n" + noise), "a.toml:1:1: 'seeds' has a seed twice");
+  EXPECT_EQ(complaint("seeds = []\n" + noise), "a.toml:1:1: 'seeds' is empty");
+  EXPECT_EQ(complaint(noise + "[[exemplar]]\nname = 'procedural'\nimage = 'e.png'\n"),
+            "a.toml:5:1: the name 'procedural' is taken by methods without an exemplar");
+}
+
+TEST_F(ConfigText, FilesThatAreNotThere) {
+  EXPECT_EQ(complaint("[[exemplar]]\nname = 'e'\nimage = 'no.png'\n" + quilting),
+            "a.toml:3:1: there is no file no.png");
+  EXPECT_EQ(complaint("[[exemplar]]\nname = 'e'\nimage = './'\n" + quilting),
+            "a.toml:3:1:  is not a file");
+}
+
+TEST_F(ConfigText, NotToml) {
+  EXPECT_TRUE(complaint("seeds = [1, 2\n" + noise).starts_with("a.toml:2:"))
+      << complaint("seeds = [1, 2\n");
+  EXPECT_TRUE(complaint("size = \xff\xfe\n").starts_with("a.toml:1:"));
+  EXPECT_TRUE(complaint("seeds = [1]\nseeds = [2]\n").starts_with("a.toml:2:"));
+  EXPECT_NE(complaint(std::string(100000, '[')), "");
+}
+
+TEST_F(ConfigText, OverridesTakeThePlaceOfWhatTheConfigSays) {
+  const Config config = parse("size = 64\n" + exemplar + quilting + "patch_size = 9\n",
+                              {"size=[32, 16]", "seeds=[4,5]", "tile=both", "patch_size=11"});
+  EXPECT_EQ(config.size, (Size{32, 16}));
+  EXPECT_EQ(config.seeds, (std::vector<int>{4, 5}));
+  EXPECT_EQ(config.tile, Tile::both);
+  EXPECT_EQ(std::get<QuiltingParams>(config.methods.at(0).method).patch_size, 11);
+}
+
+TEST_F(ConfigText, OverridesOfOneMethodOrExemplar) {
+  const std::string two = exemplar + quilting + "[[method]]\nname = 'q.2'\nkind = 'quilting'\n";
+  const Config config = parse(two, {"method.q.2.patch_size=11", "exemplar.e.max_side=4"});
+  EXPECT_EQ(std::get<QuiltingParams>(config.methods.at(0).method).patch_size, 40);
+  EXPECT_EQ(std::get<QuiltingParams>(config.methods.at(1).method).patch_size, 11);
+  EXPECT_EQ(config.exemplars.at(0).max_side, 4);
+}
+
+TEST_F(ConfigText, MistakesInOverridesAreFoundLikeThoseInTheFile) {
+  const std::string text = exemplar + quilting + "patch_size = 9\n";
+  EXPECT_EQ(complaint(text, {"patch_size=0"}),
+            "--set patch_size=0: 'patch_size' = 0: allowed are 1 to 1024");
+  EXPECT_EQ(complaint(text, {"patch_size=big"}),
+            "--set patch_size=big: 'patch_size' is a text, allowed is a whole number, 1 to 1024");
+  EXPECT_EQ(complaint(text, {"patchsize=8"}),
+            "--set patchsize=8: unknown key 'patchsize' (did you mean 'patch_size'?)");
+  EXPECT_EQ(complaint(text, {"method.q.patchsize=8"}),
+            "--set method.q.patchsize=8: unknown key 'patchsize' (did you mean 'patch_size'?)");
+  EXPECT_EQ(complaint(text, {"method.r.patch_size=8"}),
+            "--set method.r.patch_size=8: no method is called 'r' (did you mean 'q'?)");
+  EXPECT_EQ(complaint(text, {"exemplar.e.image=no.png"}),
+            "--set exemplar.e.image=no.png: there is no file no.png");
+  EXPECT_EQ(complaint(text, {"patch_size"}), "--set patch_size: must be key=value");
+  EXPECT_EQ(complaint(text, {"=3"}), "--set =3: must be key=value");
+  EXPECT_EQ(complaint(text, {"size=3\nseeds=[2]"}).substr(0, 10), "--set size");
+}
+
+TEST_F(ConfigText, PlanSelectsByPattern) {
+  const Config config = parse("seeds = [1, 12]\n" + exemplar + noise + quilting);
+  const auto selected = [&](const std::string& only) {
+    std::vector<std::string> names;
+    for (const auto& job : make_plan(config, only).jobs)
+      if (job.selected) names.push_back(job.name);
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(selected("e/q"), (Names{"e/q/seed1", "e/q/seed12"}));
+  EXPECT_EQ(selected("*/seed1"), (Names{"procedural/n/seed1", "e/q/seed1"}));
+  EXPECT_EQ(selected("proc*"), (Names{"procedural/n/seed1", "procedural/n/seed12"}));
+  EXPECT_THROW(selected("seed1"), ConfigError);
+}
+
+TEST_F(ConfigText, APictureThatCannotBeReadIsAProblemOfItsJobsOnly) {
+  write_text(folder_ / "broken.png", "no picture");
+  const Config config =
+      parse(exemplar + "[[exemplar]]\nname = 'b'\nimage = 'broken.png'\n" + quilting);
+  const Plan plan = make_plan(config);
+  EXPECT_EQ(plan.jobs.at(0).error, "");
+  EXPECT_NE(plan.jobs.at(1).error.find("broken.png"), std::string::npos);
+}
+
+TEST_F(ConfigText, MemoryRefusalSaysWhatWouldFit) {
+  const Config config = parse("size = [2000, 1000]\n" + noise);
+  const Plan plan = make_plan(config);
+  const PlannedJob& job = plan.jobs.at(0);
+  EXPECT_EQ(memory_refusal(config, plan, job, job.cost.bytes), "");
+  const std::string refusal = memory_refusal(config, plan, job, job.cost.bytes / 4);
+  int width = 0;
+  int height = 0;
+  const auto at = refusal.find("size = [");
+  ASSERT_NE(at, std::string::npos) << refusal;
+  ASSERT_EQ(std::sscanf(refusal.c_str() + at, "size = [%d, %d]", &width, &height), 2);
+  const auto cost = [&](Size size) {
+    return estimate_method(config.methods[0].method, {}, 0, {size, Tile::none}).bytes;
+  };
+  EXPECT_LE(cost({width, height}), job.cost.bytes / 4);
+  EXPECT_GT(cost({width + 20, height + 10}), job.cost.bytes / 4);
+  EXPECT_NE(memory_refusal(config, plan, job, 0).find("no size would fit"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gramloom

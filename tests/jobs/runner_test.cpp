@@ -1,0 +1,184 @@
+#include "jobs/runner.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "io/text_file.h"
+#include "jobs/record.h"
+
+namespace gramloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string two_textures =
+    "size = [24, 16]\n"
+    "[[method]]\nname = 'a'\nkind = 'procedural'\ntexture = 'noise'\n"
+    "[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"
+    "[[method]]\nname = 'b'\nkind = 'quilting'\npatch_size = 8\n";
+
+class Runner : public testing::Test {
+ protected:
+  Runner() : folder_(fs::temp_directory_path() / fmt::format("gramloom_runner_{}", getpid())) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    write_exemplar(1);
+  }
+  ~Runner() override { fs::remove_all(folder_); }
+
+  void write_exemplar(std::uint64_t seed, Encoding encoding = {}) const {
+    Image image(32, 32, 3);
+    Random random(seed);
+    for (float& value : image.pixels) value = random.uniform();
+    write_image(folder_ / "e.png", image, encoding);
+  }
+
+  RunSummary run_text(const std::string& text, RunOptions options = {},
+                      const std::vector<std::string>& set = {}) const {
+    options.output = folder_ / "out";
+    ProgressBar bar(ProgressStyle::quiet);
+    return run(parse_config(text, folder_ / "c.toml", set), options, bar);
+  }
+  RunSummary resume(const std::string& text, const std::vector<std::string>& set = {}) const {
+    RunOptions options;
+    options.resume = true;
+    return run_text(text, options, set);
+  }
+
+  fs::path out(const std::string& name) const { return folder_ / "out" / name; }
+  JobRecord record(const std::string& job) const {
+    const auto found = read_record(out(job + ".json"));
+    EXPECT_TRUE(found) << job;
+    return found.value_or(JobRecord{});
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Runner, LeavesPictureRecordAndRunFile) {
+  EXPECT_EQ(run_text(two_textures).done, 2);
+  const JobRecord noise = record("procedural/a/seed1");
+  EXPECT_EQ(noise.status, Status::done);
+  EXPECT_EQ(noise.error, "");
+  EXPECT_EQ(noise.kind, "procedural");
+  EXPECT_GT(noise.peak_memory_mb, 1);
+  const ImageFile picture = read_image(out("e/b/seed1.png"));
+  EXPECT_EQ(picture.image.size(), (Size{24, 16}));
+  const Json made_by = Json::parse(picture.metadata.at("gramloom:settings"));
+  EXPECT_EQ(made_by["method"]["patch_size"], 8);
+  EXPECT_EQ(made_by["exemplar"]["image"], "e.png");
+  const Json run_json = Json::parse(read_text(out("run.json")));
+  EXPECT_EQ(run_json["jobs"]["e/b/seed1"]["status"], "done");
+  EXPECT_EQ(run_json["config_text"], two_textures);
+  EXPECT_FALSE(run_json["versions"]["gramloom"].empty());
+}
+
+TEST_F(Runner, TheSameSeedGivesTheSameFileAndAnotherOneDoesNot) {
+  run_text(two_textures, {}, {"seeds=[1,2]"});
+  const std::string first = read_text(out("e/b/seed1.png"));
+  EXPECT_NE(read_text(out("e/b/seed2.png")), first);
+  fs::remove_all(folder_ / "out");
+  run_text(two_textures, {}, {"seeds=[2,1]"});
+  EXPECT_EQ(read_text(out("e/b/seed1.png")), first);
+}
+
+TEST_F(Runner, PixelTypeOfTheExemplarUnlessTheConfigSaysOtherwise) {
+  write_exemplar(1, {PixelType::uint16, "", {}});
+  run_text(two_textures);
+  EXPECT_EQ(read_image(out("e/b/seed1.png")).encoding.pixel_type, PixelType::uint16);
+  run_text(two_textures, {}, {"pixel_type=float"});
+  EXPECT_EQ(read_image(out("e/b/seed1.exr")).encoding.pixel_type, PixelType::float32);
+  EXPECT_FALSE(fs::exists(out("e/b/seed1.png"))) << "the picture that was replaced";
+  run_text(two_textures, {}, {"pixel_type=uint8", "format=tif"});
+  EXPECT_EQ(read_image(out("e/b/seed1.tif")).encoding.pixel_type, PixelType::uint8);
+}
+
+TEST_F(Runner, ManyChannelsBecomeTiff) {
+  Image image(16, 16, 7, 0.25f);
+  write_image(folder_ / "e.tif", image, {});
+  const std::vector<std::string> set{"exemplar.e.image=" + (folder_ / "e.tif").string()};
+  run_text(two_textures, {}, set);
+  EXPECT_EQ(read_image(out("e/b/seed1.tif")).image.channels, 7);
+  auto with_png = set;
+  with_png.push_back("format=png");
+  EXPECT_EQ(run_text(two_textures, {}, with_png).failed, 1);
+  EXPECT_NE(record("e/b/seed1").error.find("7 channels"), std::string::npos);
+}
+
+TEST_F(Runner, AFailedJobDoesNotStopTheOthers) {
+  write_text(folder_ / "e.png", "no picture");
+  const RunSummary summary =
+      run_text(two_textures + "[[exemplar]]\nname = 'z'\nimage = 'out.png'\n", {},
+               {"exemplar.z.image=" + [&] {
+                 write_image(folder_ / "z.png", Image(32, 32, 3, 0.5f), {});
+                 return (folder_ / "z.png").string();
+               }()});
+  EXPECT_EQ(summary.failed, 1);
+  EXPECT_EQ(summary.done, 2);
+  const JobRecord failed = record("e/b/seed1");
+  EXPECT_EQ(failed.status, Status::failed);
+  EXPECT_NE(failed.error.find("e.png"), std::string::npos);
+  EXPECT_EQ(failed.error.find('\n'), std::string::npos);
+  EXPECT_EQ(record("z/b/seed1").status, Status::done);
+}
+
+TEST_F(Runner, ResumeSkipsWhatIsFinished) {
+  run_text(two_textures);
+  const auto time = fs::last_write_time(out("e/b/seed1.png"));
+  EXPECT_EQ(resume(two_textures).skipped, 2);
+  EXPECT_EQ(fs::last_write_time(out("e/b/seed1.png")), time);
+}
+
+TEST_F(Runner, ResumeRedoesWhatChanged) {
+  run_text(two_textures);
+  EXPECT_EQ(resume(two_textures, {"patch_size=9"}).done, 1) << "a parameter of one method";
+  EXPECT_EQ(resume(two_textures, {"patch_size=9", "tile=x"}).done, 2) << "the target";
+  const std::vector<std::string> set{"patch_size=9", "tile=x"};
+  write_exemplar(2);
+  EXPECT_EQ(resume(two_textures, set).done, 1) << "the exemplar's pixels";
+  fs::remove(out("procedural/a/seed1.png"));
+  EXPECT_EQ(resume(two_textures, set).done, 1) << "a picture that is gone";
+  write_text(out("e/b/seed1.json"), "{\"status\": \"done\"");
+  EXPECT_EQ(resume(two_textures, set).done, 1) << "a record that is not whole";
+  EXPECT_EQ(resume(two_textures, set).skipped, 2);
+}
+
+TEST_F(Runner, AStopBetweenJobsLeavesTheRestForResume) {
+  int asked = 0;
+  RunOptions options;
+  options.stop = [&] { return ++asked > 1; };
+  const RunSummary summary = run_text(two_textures, options);
+  EXPECT_EQ(summary.done + summary.interrupted, 1);
+  EXPECT_EQ(summary.left, 1);
+  const RunSummary rest = resume(two_textures);
+  EXPECT_EQ(rest.failed + rest.interrupted + rest.left, 0);
+  EXPECT_EQ(record("e/b/seed1").status, Status::done);
+  EXPECT_EQ(record("procedural/a/seed1").status, Status::done);
+}
+
+TEST_F(Runner, AFinishedResultOutlivesAnInterruptedAttemptToRedoIt) {
+  run_text(two_textures);
+  const std::string before = read_text(out("procedural/a/seed1.png"));
+  int asked = 0;
+  RunOptions options;
+  options.stop = [&] { return ++asked > 1; };  // the first time is before the first job
+  EXPECT_EQ(run_text(two_textures, options, {"size=512"}).interrupted, 1);
+  EXPECT_EQ(read_text(out("procedural/a/seed1.png")), before);
+  EXPECT_EQ(record("procedural/a/seed1").status, Status::done);
+}
+
+TEST_F(Runner, AnOutputThatCannotBeWrittenIsFoundBeforeAnyWork) {
+  write_text(folder_ / "out", "a file where the folder should be");
+  EXPECT_THROW(run_text(two_textures), ConfigError);
+}
+
+TEST_F(Runner, AFileInTheWayOfAJobFailsThatJobOnly) {
+  fs::create_directories(folder_ / "out");
+  write_text(out("e"), "a file where a folder should be");
+  const RunSummary summary = run_text(two_textures);
+  EXPECT_EQ(summary.failed, 1);
+  EXPECT_EQ(summary.done, 1);
+}
+
+}  // namespace
+}  // namespace gramloom
