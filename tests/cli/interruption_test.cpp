@@ -1,0 +1,135 @@
+// Runs that are stopped, killed and resumed.
+#include <chrono>
+#include <csignal>
+#include <map>
+#include <thread>
+
+#include "cli/workspace.h"
+#include "jobs/trace.h"
+
+namespace gramloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Interruption : public Workspace {
+ protected:
+  // A quilting job of several seconds, and a short one after it.
+  void write_long_config() const {
+    write_text(folder_ / "long.toml",
+               "size = [6000, 6000]\n"
+               "[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"
+               "[[method]]\nname = 'long'\nkind = 'quilting'\npatch_size = 6\n"
+               "[[method]]\nname = 'next'\nkind = 'quilting'\npatch_size = 8\n");
+  }
+
+  void wait_for_file(const fs::path& file) const {
+    for (int i = 0; i < 1000 && !fs::exists(folder_ / file); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ASSERT_TRUE(fs::exists(folder_ / file)) << file;
+  }
+
+  // Every result under `out` is whole; the finished jobs' pictures by path, with their time.
+  std::map<fs::path, fs::file_time_type> finished_pictures(const fs::path& out) const {
+    std::map<fs::path, fs::file_time_type> finished;
+    if (!fs::exists(folder_ / out)) return finished;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / out)) {
+      const fs::path& path = entry.path();
+      if (path.filename().string().starts_with('.')) continue;  // temporary
+      if (path.extension() == ".png") {
+        EXPECT_NO_THROW(read_image(path)) << path;
+      } else if (path.extension() == ".json") {
+        EXPECT_TRUE(Json::accept(read_text(path))) << path;
+        const auto record = read_record(path);
+        if (record && record->status == Status::done)
+          for (const auto& name : record->files) {
+            const fs::path picture = path.parent_path() / name;
+            EXPECT_TRUE(fs::exists(picture)) << picture;
+            finished[picture] = fs::last_write_time(picture);
+          }
+      }
+    }
+    return finished;
+  }
+};
+
+TEST_F(Interruption, CtrlCStopsAndSaysSo) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    write_long_config();
+    fs::remove_all(folder_ / "out");
+    Process process(folder_, {"run", "long.toml"});
+    wait_for_file("out/long/e/long/seed1.json");
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    process.signal(signal);
+    const Outcome outcome = process.wait();
+    EXPECT_EQ(outcome.exit_code, 130);
+    EXPECT_NE(outcome.errors.find("interrupted"), std::string::npos) << outcome.errors;
+    ASSERT_TRUE(record("e/long/seed1", "out/long"));
+    EXPECT_EQ(record("e/long/seed1", "out/long")->status, Status::interrupted);
+    EXPECT_FALSE(record("e/next/seed1", "out/long"));
+    const Json run_json = Json::parse(file("out/long/run.json"));
+    EXPECT_EQ(run_json["jobs"]["e/long/seed1"]["status"], "interrupted");
+    EXPECT_EQ(run_json["jobs"]["e/next/seed1"]["status"], "waiting");
+  }
+}
+
+TEST_F(Interruption, AKilledJobIsNotCalledDone) {
+  write_long_config();
+  Process process(folder_, {"run", "long.toml"});
+  wait_for_file("out/long/e/long/seed1.json");
+  process.signal(SIGKILL);
+  EXPECT_EQ(process.wait().exit_code, 128 + SIGKILL);
+  EXPECT_EQ(record("e/long/seed1", "out/long")->status, Status::interrupted);
+}
+
+TEST_F(Interruption, KilledAtAnyMomentAndResumedNothingIsLost) {
+  const std::vector<std::string> many{"--set", "seeds=[1,2,3,4,5,6,7,8,9,10]", "--set",
+                                      "size=[200,150]"};
+  const auto arguments = [&](std::vector<std::string> words) {
+    words.insert(words.end(), many.begin(), many.end());
+    return words;
+  };
+  ASSERT_EQ(run(arguments({"run", "c.toml", "--output", "whole"})).exit_code, 0);
+
+  Random random(1);
+  int kills = 0;
+  for (; kills < 12; ++kills) {
+    const auto before = finished_pictures("killed");
+    const auto delay = std::chrono::milliseconds(20 + random.below(400));
+    SCOPED_TRACE(fmt::format("kill {} after {} ms", kills, delay.count()));
+    Process process(folder_, arguments({"run", "c.toml", "--output", "killed", "--resume"}));
+    std::this_thread::sleep_for(delay);
+    process.signal(SIGKILL);
+    const bool finished = process.wait().exit_code == 0;
+    const auto after = finished_pictures("killed");
+    for (const auto& [picture, time] : before) {
+      ASSERT_TRUE(after.contains(picture)) << picture << " is lost";
+      ASSERT_EQ(after.at(picture), time) << picture << " was done again";
+    }
+    if (finished) break;
+  }
+  EXPECT_GT(kills, 1) << "the run is too short for this test";
+
+  ASSERT_EQ(run(arguments({"run", "c.toml", "--output", "killed", "--resume"})).exit_code, 0);
+  const auto whole = finished_pictures("whole");
+  EXPECT_EQ(whole.size(), 20u);
+  for (const auto& [picture, time] : whole)
+    EXPECT_EQ(read_text(picture),
+              read_text(folder_ / "killed" / fs::relative(picture, folder_ / "whole")));
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "killed"))
+    EXPECT_TRUE(entry.is_directory() || !entry.path().filename().string().ends_with(".tmp"))
+        << entry.path() << " was left";
+}
+
+TEST_F(Interruption, ADiskThatIsFullFailsTheJobInOneLine) {
+  // A limit on the length of files stands for a full disk: noise does not fit, the record does.
+  const Outcome outcome =
+      shell(folder_, "trap '' XFSZ; ulimit -f 64; $GRAMLOOM run c.toml --quiet --set size=400");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 4) << outcome.errors;
+  EXPECT_EQ(record("e/q/seed1")->status, Status::failed);
+  EXPECT_FALSE(fs::exists(folder_ / "out/c/e/q/seed1.png"));
+}
+
+}  // namespace
+}  // namespace gramloom
