@@ -33,6 +33,10 @@ std::vector<std::string> split(const std::string& line) {
   return cells;
 }
 
+double last_seconds(const Trace& trace) {
+  return trace.rows.empty() ? 0 : trace.rows.back().seconds;
+}
+
 TraceRow parse_row(const std::vector<std::string>& cells) {
   TraceRow row{
       std::stoll(cells[0]), std::stoll(cells[1]), std::stod(cells[2]), std::stod(cells[3]), {}};
@@ -79,6 +83,7 @@ TraceLog::TraceLog(std::filesystem::path file, std::string mark)
     const std::string text = read_text(file_);
     if (!text.starts_with(mark_)) return;
     trace_ = parse_trace(text);
+    seconds_before_ = last_seconds(trace_);
     continues_ = true;
   } catch (const Error&) {
     // No earlier attempt, or nothing of use.
@@ -87,6 +92,7 @@ TraceLog::TraceLog(std::filesystem::path file, std::string mark)
 
 void TraceLog::restart() {
   trace_ = {};
+  seconds_before_ = 0;
   continues_ = false;
   std::error_code ignored;
   std::filesystem::remove(file_, ignored);
@@ -96,7 +102,7 @@ void TraceLog::add(const Progress& progress) {
   if (!std::isfinite(progress.loss)) return;
   if (!started_) {
     std::erase_if(trace_.rows, [&](const auto& row) { return row.step >= progress.step; });
-    if (!trace_.rows.empty()) seconds_before_ = trace_.rows.back().seconds;
+    seconds_before_ = last_seconds(trace_);
     trace_.terms.clear();
     for (const auto& term : progress.terms) trace_.terms.push_back(term.name);
     write_text(file_, mark_ + to_csv(trace_));

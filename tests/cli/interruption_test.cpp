@@ -131,5 +131,93 @@ TEST_F(Interruption, ADiskThatIsFullFailsTheJobInOneLine) {
   EXPECT_FALSE(fs::exists(folder_ / "out/c/e/q/seed1.png"));
 }
 
+// An iterative method keeps its state, so that a stopped job goes on where it was.
+class Iterative : public Interruption {
+ protected:
+  static constexpr int iterations = 150;
+  const std::string job_ = "e/gram/seed1";
+
+  Iterative() {
+    write_text(folder_ / "gram.toml",
+               fmt::format("size = [64, 64]\n"
+                           "[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"
+                           "[[method]]\nname = 'gram'\nkind = 'neural'\niterations = {}\n",
+                           iterations));
+  }
+
+  Trace trace(const std::string& out) const { return parse_trace(file(out + "/" + job_ + ".csv")); }
+  // Starts a run and sends a signal when it has made some steps.
+  Outcome stop_in_the_middle(int signal, const std::vector<std::string>& arguments) const {
+    Process process(folder_, arguments);
+    const fs::path rows = folder_ / "out/gram" / (job_ + ".checkpoint.csv");
+    for (int i = 0; i < 6000; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      if (fs::exists(rows) && parse_trace(read_text(rows)).rows.size() >= 5) break;
+    }
+    process.signal(signal);
+    return process.wait();
+  }
+  void expect_whole_trace(const std::string& out) const {
+    const Trace found = trace(out);
+    ASSERT_EQ(found.rows.size(), static_cast<std::size_t>(iterations));
+    for (int i = 0; i < iterations; ++i) {
+      const auto row = static_cast<std::size_t>(i);
+      EXPECT_EQ(found.rows[row].step, i + 1);
+      if (i == 0) continue;
+      EXPECT_GE(found.rows[row].seconds, found.rows[row - 1].seconds);
+      EXPECT_GT(found.rows[row].evaluations, found.rows[row - 1].evaluations);
+    }
+  }
+  bool unfinished_state() const {
+    return fs::exists(folder_ / "out/gram" / (job_ + ".checkpoint")) ||
+           fs::exists(folder_ / "out/gram" / (job_ + ".checkpoint.csv"));
+  }
+};
+
+TEST_F(Iterative, CtrlCSavesWhatThereIsAndResumeGoesOnToTheSameResult) {
+  ASSERT_EQ(run({"run", "gram.toml", "--output", "whole"}).exit_code, 0);
+  expect_whole_trace("whole");
+
+  EXPECT_EQ(stop_in_the_middle(SIGINT, {"run", "gram.toml"}).exit_code, 130);
+  EXPECT_EQ(record(job_, "out/gram")->status, Status::interrupted);
+  EXPECT_NO_THROW(read_image(folder_ / "out/gram" / (job_ + ".png")));
+  const Trace before = trace("out/gram");
+  EXPECT_GE(before.rows.size(), 5u);
+  EXPECT_TRUE(unfinished_state());
+
+  EXPECT_EQ(run({"run", "gram.toml", "--resume"}).exit_code, 0);
+  expect_whole_trace("out/gram");
+  const Trace after = trace("out/gram");
+  EXPECT_TRUE(std::equal(before.rows.begin(), before.rows.end() - 1, after.rows.begin()))
+      << "steps before the stop were done again";
+  EXPECT_FALSE(unfinished_state());
+  const auto result = record(job_, "out/gram");
+  EXPECT_EQ(result->loss->iterations, iterations);
+  EXPECT_EQ(result->loss->last, after.rows.back().loss);
+  EXPECT_EQ(file("out/gram/" + job_ + ".png"), file("whole/" + job_ + ".png"));
+}
+
+TEST_F(Iterative, KilledAndResumed) {
+  EXPECT_EQ(stop_in_the_middle(SIGKILL, {"run", "gram.toml"}).exit_code, 128 + SIGKILL);
+  EXPECT_EQ(record(job_, "out/gram")->status, Status::interrupted);
+  EXPECT_EQ(run({"run", "gram.toml", "--resume"}).exit_code, 0);
+  expect_whole_trace("out/gram");
+  EXPECT_FALSE(unfinished_state());
+}
+
+TEST_F(Iterative, WithoutResumeOrWithOtherSettingsItBeginsAnew) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"run", "gram.toml"},
+        std::vector<std::string>{"run", "gram.toml", "--resume", "--set", "layer_weights=[]",
+                                 "--set", "history=7"}}) {
+    stop_in_the_middle(SIGINT, {"run", "gram.toml"});
+    const double seconds = trace("out/gram").rows.front().seconds;
+    EXPECT_EQ(run(arguments).exit_code, 0);
+    expect_whole_trace("out/gram");
+    EXPECT_NE(trace("out/gram").rows.front().seconds, seconds);
+    fs::remove_all(folder_ / "out");
+  }
+}
+
 }  // namespace
 }  // namespace gramloom
