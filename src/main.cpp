@@ -99,7 +99,7 @@ ExitCode list_command(const Arguments& arguments) {
   };
   std::string text;
   if (wanted("methods")) text += list_methods();
-  if (wanted("networks")) text += list_networks({"models"});
+  if (wanted("networks")) text += list_networks({});
   if (wanted("patterns")) text += list_patterns();
   return print(text);
 }
@@ -113,7 +113,7 @@ void add_config_options(CLI::App& command, Arguments& arguments) {
   command
       .add_option("--set", arguments.set,
                   "in place of what the config says: a top-level key, a parameter of every "
-                  "method that has it, or method.NAME.key")
+                  "method that has it, method.NAME.key or exemplar.NAME.key")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->allow_extra_args(false)

@@ -92,16 +92,10 @@ std::string list_patterns() {
   return text;
 }
 
-std::string list_networks(const std::vector<fs::path>& folders) {
+std::string list_networks(const std::vector<fs::path>& files) {
   std::vector<Row> rows;
-  for (const auto& folder : folders) {
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(folder, ignored))
-      if (entry.path().extension() == ".toml")
-        rows.push_back({entry.path().stem().string(), first_comment(entry.path())});
-  }
-  std::sort(rows.begin(), rows.end());
-  return table(rows, "");
+  for (const auto& file : files) rows.push_back({file.stem().string(), first_comment(file)});
+  return table(rows, "") + "\n";
 }
 
 std::string job_table(const Config& config, const Plan& plan) {

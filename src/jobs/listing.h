@@ -15,9 +15,8 @@ namespace gramloom {
 std::string list_methods();
 /// The same of every procedural texture.
 std::string list_patterns();
-/// The network descriptions in these folders, by the name that a config uses, with the first
-/// comment of the file.
-std::string list_networks(const std::vector<std::filesystem::path>& folders);
+/// These network descriptions by the name that a config uses, with the file's first comment.
+std::string list_networks(const std::vector<std::filesystem::path>& files);
 
 /// The selected jobs with their estimated memory and time, and what keeps one from running.
 std::string job_table(const Config& config, const Plan& plan);
