@@ -19,15 +19,6 @@ Json fields_to_json(const Struct& value, const fs::path& folder) {
   return json;
 }
 
-// Null for a name that is no file, and for a file that is gone: the method will say so.
-Json hash_if_file(const fs::path& path) {
-  try {
-    return file_hash(path);
-  } catch (const Error&) {
-    return nullptr;
-  }
-}
-
 // The content of every file that the method's parameters name.
 Json hashes_of_files(const Method& method) {
   Json hashes = Json::object();
@@ -35,7 +26,8 @@ Json hashes_of_files(const Method& method) {
       [&](const auto& params) {
         for_each_parameter(params, [&]<class T>(const auto& field, const T& value) {
           if constexpr (std::is_same_v<T, fs::path>)
-            if (!value.empty()) hashes[std::string(field.name)] = hash_if_file(value);
+            if (std::error_code ignored; fs::is_regular_file(value, ignored))
+              hashes[std::string(field.name)] = file_hash(value);
         });
       },
       method);
