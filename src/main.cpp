@@ -99,7 +99,7 @@ ExitCode list_command(const Arguments& arguments) {
   };
   std::string text;
   if (wanted("methods")) text += list_methods();
-  if (wanted("networks")) text += list_networks({});
+  if (wanted("networks")) text += list_networks();
   if (wanted("patterns")) text += list_patterns();
   return print(text);
 }

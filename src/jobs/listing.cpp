@@ -1,18 +1,16 @@
 #include "jobs/listing.h"
 
 #include <algorithm>
-#include <fstream>
 
 #include "core/variants.h"
 #include "io/field_values.h"
 #include "jobs/memory.h"
 #include "jobs/progress_bar.h"
+#include "neural/network_description.h"
 
 namespace gramloom {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::size_t longest_column = 44;
 
@@ -59,15 +57,6 @@ std::string list_textures() {
   return text;
 }
 
-// What the file's first comment says.
-std::string first_comment(const fs::path& file) {
-  std::ifstream stream(file);
-  std::string line;
-  std::getline(stream, line);
-  const std::size_t start = line.find_first_not_of("# ");
-  return line.starts_with('#') && start != std::string::npos ? line.substr(start) : "";
-}
-
 }  // namespace
 
 std::string list_methods() {
@@ -92,9 +81,10 @@ std::string list_patterns() {
   return text;
 }
 
-std::string list_networks(const std::vector<fs::path>& files) {
+std::string list_networks() {
   std::vector<Row> rows;
-  for (const auto& file : files) rows.push_back({file.stem().string(), first_comment(file)});
+  for (const auto& file : known_networks())
+    rows.push_back({file.stem().string(), read_network(file).summary});
   return table(rows, "") + "\n";
 }
 

@@ -12,14 +12,15 @@
 #include "core/image.h"
 #include "core/progress.h"
 #include "core/random.h"
+#include "neural/synthesis.h"
 #include "procedural/texture.h"
 
 namespace gramloom {
 
 /// Every method that a config can name: the one list of them. A method is one of these structs and
 /// the functions synthesise and estimate beside it.
-using Method =
-    std::variant<ProceduralParams, QuiltingParams, PyramidParams, PhaseParams, HistogramParams>;
+using Method = std::variant<NeuralParams, QuiltingParams, PyramidParams, PhaseParams,
+                            HistogramParams, ProceduralParams>;
 
 /// A method that makes a texture from a picture of one; the others need no exemplar.
 template <class Params>
