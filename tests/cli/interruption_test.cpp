@@ -134,14 +134,15 @@ TEST_F(Interruption, ADiskThatIsFullFailsTheJobInOneLine) {
 // An iterative method keeps its state, so that a stopped job goes on where it was.
 class Iterative : public Interruption {
  protected:
-  static constexpr int iterations = 150;
+  static constexpr int iterations = 40;
   const std::string job_ = "e/gram/seed1";
 
   Iterative() {
     write_text(folder_ / "gram.toml",
-               fmt::format("size = [64, 64]\n"
+               fmt::format("size = [32, 32]\n"
                            "[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"
-                           "[[method]]\nname = 'gram'\nkind = 'neural'\niterations = {}\n",
+                           "[[method]]\nname = 'gram'\nkind = 'neural'\nnetwork = 'vgg_small'\n"
+                           "iterations = {}\n",
                            iterations));
   }
 
