@@ -5,7 +5,10 @@
 #include <variant>
 
 #include "classic/histogram.h"
+#include "classic/markov.h"
+#include "classic/patchmatch.h"
 #include "classic/phase.h"
+#include "classic/pixel.h"
 #include "classic/pyramid.h"
 #include "classic/quilting.h"
 #include "core/fields.h"
@@ -19,8 +22,9 @@ namespace gramloom {
 
 /// Every method that a config can name: the one list of them. A method is one of these structs and
 /// the functions synthesise and estimate beside it.
-using Method = std::variant<NeuralParams, QuiltingParams, PyramidParams, PhaseParams,
-                            HistogramParams, ProceduralParams>;
+using Method =
+    std::variant<NeuralParams, QuiltingParams, PatchmatchParams, PixelParams, PyramidParams,
+                 PhaseParams, MarkovParams, HistogramParams, ProceduralParams>;
 
 /// A method that makes a texture from a picture of one; the others need no exemplar.
 template <class Params>
