@@ -10,6 +10,7 @@
 #include "jobs/results.h"
 #include "jobs/run_file.h"
 #include "jobs/trace.h"
+#include "neural/blas_speed.h"
 
 namespace gramloom {
 
@@ -194,6 +195,20 @@ RunFile prepare_output(const Config& config, const Plan& plan, const fs::path& o
   }
 }
 
+// A slow BLAS is no mistake, but a neural job that takes ten times as long deserves a word.
+void warn_of_slow_blas(const Run& run) {
+  const auto is_neural = [&](const PlannedJob& planned) {
+    return planned.selected &&
+           std::holds_alternative<NeuralParams>(run.config.methods[planned.job.method].method);
+  };
+  if (std::none_of(run.plan.jobs.begin(), run.plan.jobs.end(), is_neural)) return;
+  if (const double speed = blas_gigaflops(); speed < slow_blas_gigaflops)
+    run.bar.complaint(
+        fmt::format("warning: matrix products run at {:.0f} GFLOP/s, so neural jobs will be slow: "
+                    "install OpenBLAS (Debian: libopenblas0-openmp)",
+                    speed));
+}
+
 void count_outcome(RunSummary& summary, Status status) {
   switch (status) {
     case Status::done:
@@ -216,6 +231,7 @@ RunSummary run(const Config& config, const RunOptions& options, ProgressBar& bar
   Run run{config, options, plan, bar, {}, {}};
   const auto count = static_cast<std::size_t>(
       std::count_if(plan.jobs.begin(), plan.jobs.end(), [](const auto& j) { return j.selected; }));
+  warn_of_slow_blas(run);
   RunSummary summary;
   std::size_t number = 0;
   for (const auto& planned : plan.jobs) {

@@ -2,38 +2,65 @@
 
 #include <torch/csrc/autograd/custom_function.h>
 
+#include <algorithm>
+
 #include "neural/resample.h"
 
 namespace gramloom::neural {
 
 namespace {
 
-// Keeps the maps, which the network keeps anyway, and not their copy in rows.
+constexpr std::int64_t positions_at_once = 1 << 15;
+
+// Calls f(first row, rows) for stripes of a few ten thousand positions: a copy of all maps in rows
+// would be as large as the maps.
+template <class F>
+void for_each_stripe(const at::Tensor& data, F&& f) {
+  const std::int64_t height = data.size(1);
+  const std::int64_t stripe = std::max<std::int64_t>(1, positions_at_once / data.size(2));
+  for (std::int64_t y = 0; y < height; y += stripe) f(y, std::min(stripe, height - y));
+}
+
+at::Tensor rows_of(const at::Tensor& data, std::int64_t channels, std::int64_t y,
+                   std::int64_t count) {
+  return to_rows({data.narrow(1, y, count), channels}).contiguous();
+}
+
+// Keeps the maps, which the network keeps anyway, and nothing else.
 struct MomentsFunction : torch::autograd::Function<MomentsFunction> {
   static torch::autograd::variable_list forward(torch::autograd::AutogradContext* context,
                                                 const at::Tensor& data, std::int64_t channels) {
     context->save_for_backward({data});
     context->saved_data["channels"] = channels;
-    const at::Tensor rows = to_rows({data, channels}).contiguous();
-    const auto positions = static_cast<double>(rows.size(0));
-    return {at::mm(rows.t(), rows).div_(positions), rows.mean(0)};
+    at::Tensor gram = at::zeros({channels, channels}, data.options());
+    at::Tensor mean = at::zeros({channels}, data.options());
+    for_each_stripe(data, [&](std::int64_t y, std::int64_t count) {
+      const at::Tensor rows = rows_of(data, channels, y, count);
+      gram.addmm_(rows.t(), rows);
+      mean.add_(rows.sum(0));
+    });
+    const auto positions = static_cast<double>(data.size(1) * data.size(2));
+    return {gram.div_(positions), mean.div_(positions)};
   }
 
   static torch::autograd::variable_list backward(torch::autograd::AutogradContext* context,
                                                  torch::autograd::variable_list gradients) {
     const at::Tensor data = context->get_saved_variables()[0];
     const auto channels = context->saved_data["channels"].toInt();
-    const at::Tensor rows = to_rows({data, channels}).contiguous();
-    const auto positions = static_cast<double>(rows.size(0));
-    const at::Tensor& of_gram = gradients[0];
-    const at::Tensor of_rows =
-        at::addmm(gradients[1], rows, of_gram + of_gram.t(), 1 / positions, 1 / positions);
-    // Back into blocks: the transpose of to_rows().
-    at::Tensor blocks = at::constant_pad_nd(of_rows, {0, data.size(0) * data.size(3) - channels});
-    return {blocks.view({data.size(1), data.size(2), data.size(0), data.size(3)})
-                .permute({2, 0, 1, 3})
-                .contiguous(),
-            at::Tensor()};
+    const std::int64_t blocks = data.size(0), width = data.size(2), block = data.size(3);
+    const auto positions = static_cast<double>(data.size(1) * width);
+    const at::Tensor of_gram = gradients[0] + gradients[0].t();
+    at::Tensor result = at::empty_like(data);
+    for_each_stripe(data, [&](std::int64_t y, std::int64_t count) {
+      const at::Tensor of_rows = at::addmm(gradients[1], rows_of(data, channels, y, count), of_gram,
+                                           1 / positions, 1 / positions);
+      // Back into blocks: the transpose of to_rows().
+      result.narrow(1, y, count)
+          .copy_(at::constant_pad_nd(of_rows, {0, blocks * block - channels})
+                     .view({count, width, blocks, block})
+                     .permute({2, 0, 1, 3}));
+    });
+    return {result, at::Tensor()};
   }
 };
 

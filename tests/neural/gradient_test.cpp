@@ -66,6 +66,36 @@ std::vector<Case> cases() {
   return all;
 }
 
+TEST(PyramidGradient, MatchesFiniteDifferences) {
+  NetworkDescription description;
+  description.name = "pyramid";
+  description.layers = {{"pyramid1", PyramidLayer{5, 3, 3}},
+                        {"relu1", ReluLayer{}},
+                        {"conv2", ConvolutionLayer{4, 3, 1}},
+                        {"relu2", ReluLayer{}}};
+  const auto shapes = filter_shapes(description, 2);
+  auto weights = random_filters(shapes, RandomWeights::he_normal, 3);
+  for (auto& w : weights) w.weights = w.weights.to(at::kDouble);
+  const Network network(description, shapes, weights, Pooling::as_described);
+  for (const auto padding : {Padding::circular, Padding::reflect, Padding::zero}) {
+    const Edges edges{padding, padding};
+    Loss loss(network, description, {{1, 1}, {3, 0.5}}, {true, true, true},
+              numbers({2, 16, 18}, 1, at::kDouble), edges, edges);
+    const at::Tensor picture = numbers({2, 13, 18}, 2, at::kDouble);  // odd: sizes 13, 7, 4
+    at::Tensor gradient = at::empty_like(picture), unused = at::empty_like(picture);
+    loss(picture, gradient);
+    for (std::uint64_t trial = 0; trial < 4; ++trial) {
+      const at::Tensor direction = numbers(picture.sizes(), 50 + trial, at::kDouble);
+      const double step = 1e-6;
+      const double difference =
+          (loss(picture + step * direction, unused) - loss(picture - step * direction, unused)) /
+          (2 * step);
+      EXPECT_NEAR((gradient * direction).sum().item<double>(), difference,
+                  1e-5 * gradient.norm().item<double>());
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Cases, GradientTest, testing::ValuesIn(cases()));
 
 }  // namespace

@@ -25,6 +25,18 @@ TEST(Resample, WrappedPicturesCommuteWithShifts) {
   EXPECT_LT(relative_difference(a, b), 1e-5);
 }
 
+TEST(Resample, GradientIsTheAdjoint) {
+  for (const Tile tile : {Tile::none, Tile::x, Tile::both})
+    for (const Size size : {Size{4, 3}, Size{5, 9}, Size{13, 14}}) {
+      const at::Tensor a = numbers({2, 7, 8}, 3, at::kDouble).requires_grad_(true);
+      const at::Tensor out = resample(a, size, tile);
+      const at::Tensor b = numbers(out.sizes(), 4, at::kDouble);
+      (out * b).sum().backward();
+      EXPECT_NEAR((a.detach() * a.grad()).sum().item<double>(),
+                  (out.detach() * b).sum().item<double>(), 1e-10);
+    }
+}
+
 TEST(Resample, EnlargesALineExactlyInside) {  // Keys' cubic reproduces polynomials of degree 2
   const at::Tensor x = at::arange(16, at::kFloat);
   const at::Tensor line = resample((x * x).view({1, 1, 16}), {32, 1}, Tile::none).view({32});

@@ -31,6 +31,24 @@ TEST(Moments, UnchangedByShufflingPositions) {
   EXPECT_LT(relative_difference(a.mean, b.mean), 1e-12);
 }
 
+TEST(Moments, AcrossScalesOfOneSizeAreThoseOfAllMapsTogether) {
+  const at::Tensor a = numbers({5, 6, 8}, 1, at::kDouble), b = numbers({3, 6, 8}, 2, at::kDouble);
+  const Moments across = moments({to_maps(a), to_maps(b)}, Tile::both);
+  const Moments together = moments(to_maps(at::cat({a, b})));
+  EXPECT_LT(relative_difference(across.gram, together.gram), 1e-12);
+  EXPECT_LT(relative_difference(across.mean, together.mean), 1e-12);
+}
+
+TEST(Moments, AcrossScalesMeetAtTheCoarserPositions) {
+  // A fine map of 4 positions that wraps, (1, 0, 0, 0), under triangles: its coarse positions 0 and
+  // 1 get (1·3 + 0·3 + 0 + 0)/8 and (0·3 + 0·3 + 0 + 1)/8 of it.
+  const at::Tensor fine = at::tensor({1.0, 0.0, 0.0, 0.0}, at::kDouble).view({1, 1, 4});
+  const at::Tensor coarse = at::tensor({2.0, 5.0}, at::kDouble).view({1, 1, 2});
+  const Moments m = moments({to_maps(fine), to_maps(coarse)}, Tile::x);
+  EXPECT_NEAR(m.gram[0][1].item<double>(), (2 * 3.0 / 8 + 5 * 1.0 / 8) / 2, 1e-12);
+  EXPECT_EQ(m.gram[0][1].item<double>(), m.gram[1][0].item<double>());
+}
+
 // E_l as Gatys, Ecker and Bethge write it: 1/(4 N² M²) Σ (G − Ĝ)² with G = F Fᵀ.
 TEST(GramTarget, IsThePapersErrorWhenNothingIsAsked) {
   const at::Tensor f = numbers({5, 4, 6}, 3, at::kDouble), g = numbers({5, 4, 6}, 4, at::kDouble);
