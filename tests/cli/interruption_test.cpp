@@ -112,7 +112,10 @@ TEST_F(Interruption, KilledAtAnyMomentAndResumedNothingIsLost) {
 
   ASSERT_EQ(run(arguments({"run", "c.toml", "--output", "killed", "--resume"})).exit_code, 0);
   const auto whole = finished_pictures("whole");
-  EXPECT_EQ(whole.size(), 20u);
+  const auto textures = std::count_if(whole.begin(), whole.end(), [](const auto& picture) {
+    return picture.first.filename().string().find('_') == std::string::npos;  // a map has one
+  });
+  EXPECT_EQ(textures, 20);
   for (const auto& [picture, time] : whole)
     EXPECT_EQ(read_text(picture),
               read_text(folder_ / "killed" / fs::relative(picture, folder_ / "whole")));
