@@ -109,7 +109,7 @@ class Synthesis {
 
   at::Tensor first_picture(Size size) const {
     const int channels = colours_.channels;
-    if (params_.start.empty()) return noise(random_, channels, size);
+    if (params_.start.empty()) return noise(random_, channels, size).mul_(params_.noise);
     const Image image = read_image(params_.start).image;
     if (image.channels != channels)
       throw Error("{}: has {} channels, the exemplar has {}", params_.start.string(),

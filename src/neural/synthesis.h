@@ -67,6 +67,7 @@ struct NeuralParams {
   int levels = 1;
   double level_factor = 0.5;
   std::filesystem::path start;
+  double noise = 1;
   bool match_histogram = false;
 
   static constexpr auto fields() {
@@ -122,6 +123,11 @@ struct NeuralParams {
               "",
               {0.25, 0.95}},
         Field{"start", &P::start, "image to start from; empty: noise"},
+        Field{"noise",
+              &P::noise,
+              "standard deviation of the noise to start from, relative to the exemplar's colours",
+              "",
+              {1e-4, 10}},
         Field{"match_histogram", &P::match_histogram,
               "at the end, give each channel the exemplar's histogram"},
     };
