@@ -76,7 +76,11 @@ std::string list_methods() {
 std::string list_patterns() {
   std::string text;
   for_each_alternative<Method>([&]<class Params>(std::type_identity<Params>) {
-    if constexpr (HasVariant<Params>) text += list_textures<decltype(Params::texture)>();
+    if constexpr (HasVariant<Params>) {
+      text += fmt::format("Every {} = … of the kind '{}' has:\n", Params::variant_key, Params::kind);
+      text += table(parameter_rows<Params>(), "  ") + "\n";
+      text += list_textures<decltype(Params::texture)>();
+    }
   });
   return text;
 }

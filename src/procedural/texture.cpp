@@ -111,6 +111,11 @@ Texture synthesise(const ProceduralParams& params, const Target& target, Random 
 }
 
 Cost estimate(const ProceduralParams& params, const Target& target) {
+  check(params, target);
+  // One pixel finds what the texture itself refuses, such as colours that are none.
+  ProceduralParams one = params;
+  one.frames = 1;
+  synthesise(one, {{1, 1}, Tile::none}, Random(0), {});
   const double pixels = static_cast<double>(target.size.width) * target.size.height;
   const double samples = pixels * params.samples * params.samples * params.frames;
   const double images = 5 + params.frames;  // colour, maps, and what light_relief works with

@@ -1,0 +1,32 @@
+// The exemplars that we ship are what their config makes, byte for byte.
+#include "cli/workspace.h"
+
+namespace gramloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Exemplars : public Workspace {};
+
+TEST_F(Exemplars, AreWhatTheirConfigMakes) {
+  const fs::path data = fs::path(GRAMLOOM_SOURCE_DIR) / "data";
+  const Outcome made =
+      run({"run", (data / "exemplars.toml").string(), "--output", "made", "--quiet"});
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  int pictures = 0;
+  for (const auto& entry : fs::directory_iterator(folder_ / "made/procedural")) {
+    const std::string name = entry.path().filename().string();
+    for (const auto& file : fs::directory_iterator(entry.path())) {
+      if (file.path().extension() != ".png") continue;
+      const std::string map = file.path().stem().string().substr(std::string("seed1").size());
+      const fs::path shipped = data / (name + map + ".png");
+      ++pictures;
+      ASSERT_TRUE(fs::exists(shipped)) << shipped;
+      EXPECT_TRUE(read_text(shipped) == read_text(file.path())) << shipped;
+    }
+  }
+  EXPECT_GE(pictures, 12);
+}
+
+}  // namespace
+}  // namespace gramloom
