@@ -27,6 +27,7 @@ constexpr double seconds_between_checkpoints = 60;
 // The colours that a network sees: an affine map of the exemplar's, undone for the result.
 ColourPca network_colours(const NeuralParams& params, const NetworkDescription& description,
                           const Image& exemplar) {
+  check_weights(params, description, exemplar.channels);
   ColourPca colours = colour_pca(exemplar);
   if (params.weights.empty() && params.whiten_colour) return colours;
   const auto channels = static_cast<std::size_t>(colours.channels);
