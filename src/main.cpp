@@ -171,6 +171,7 @@ ExitCode dispatch(int argc, char** argv) {
 int main(int argc, char** argv) {
   keep_standard_streams_open();
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows beyond a limit is an error of its job
   try {
     return dispatch(argc, argv);
   } catch (const ConfigError& error) {

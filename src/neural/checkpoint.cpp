@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include <bit>
 
 #include "core/error.h"
 #include "io/safetensors.h"
@@ -12,7 +12,7 @@ namespace gramloom::neural {
 namespace {
 
 // All of a checkpoint lies in one safetensors file: tensors (pictures, vectors) as they are, and
-// each double as two floats' worth of bits, which a float tensor keeps exactly.
+// each double as its bits in four parts of 16, numbers that floats hold exactly.
 TensorData to_data(const at::Tensor& tensor) {
   const at::Tensor values = tensor.contiguous();
   const float* first = values.data_ptr<float>();
@@ -23,21 +23,19 @@ at::Tensor to_tensor(const TensorData& data) {
   return at::from_blob(const_cast<float*>(data.values.data()), data.shape, at::kFloat).clone();
 }
 
-// Three floats hold the 53 bits of a double exactly: each takes what the ones before it left over.
 TensorData to_data(double value) {
-  TensorData data{{3}, {}};
-  for (int i = 0; i < 3; ++i) {
-    const auto part = static_cast<float>(value);
-    data.values.push_back(part);
-    value -= static_cast<double>(part);
-  }
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  TensorData data{{4}, {}};
+  for (int part = 0; part < 4; ++part)
+    data.values.push_back(static_cast<float>(bits >> 16 * part & 0xffff));
   return data;
 }
 
 double to_double(const TensorData& data) {
-  double sum = 0;
-  for (std::size_t i = data.values.size(); i-- > 0;) sum += static_cast<double>(data.values[i]);
-  return sum;
+  std::uint64_t bits = 0;
+  for (std::size_t part = 0; part < 4; ++part)
+    bits |= static_cast<std::uint64_t>(data.values.at(part)) << 16 * part;
+  return std::bit_cast<double>(bits);
 }
 
 // The fingerprint is kept as the name of an empty tensor: read_tensors gives names and values.

@@ -63,6 +63,7 @@ Work count(const NetworkDescription& network, const std::vector<FilterShape>& sh
 Cost estimate(const NeuralParams& params, Size exemplar, int channels, const Target& target) {
   auto network = read_network(find_network(params.network));
   const auto layers = matched_layers(params, network);
+  check_weights(params, network, channels);
   const auto shapes = filter_shapes(network, channels);
   const Work result = count(network, shapes, layers, target.size, channels);
   const Work own = count(network, shapes, layers, exemplar, channels);

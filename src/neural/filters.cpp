@@ -68,9 +68,12 @@ std::vector<FilterWeights> load_filters(const NetworkDescription& description,
   };
   std::set<std::string> names;
   for (const auto& shape : shapes) {
-    if (std::holds_alternative<BankLayer>(description.layers[shape.layer].kind))
-      throw Error("{}: network '{}' has a bank of filters, which only random weights can fill",
-                  file.string(), description.name);
+    const auto& layer = description.layers[shape.layer];
+    if (!std::holds_alternative<ConvolutionLayer>(layer.kind))
+      throw Error(
+          "{}: layer '{}' of network '{}' has filters of several scales, which only random "
+          "weights can fill",
+          file.string(), layer.name, description.name);
     names.insert(name(shape.layer, "weight"));
     names.insert(name(shape.layer, "bias"));
   }

@@ -27,6 +27,18 @@ std::vector<Loss::MatchedLayer> matched_layers(const NeuralParams& params,
   return layers;
 }
 
+void check_weights(const NeuralParams& params, const NetworkDescription& description,
+                   int channels) {
+  if (params.weights.empty()) return;
+  if (!description.input_mean.empty() &&
+      description.input_mean.size() != static_cast<std::size_t>(channels))
+    throw Error("{}: trained weights of '{}' look at {} channels, the exemplar has {}",
+                params.weights.string(), description.name, description.input_mean.size(), channels);
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(params.weights, ignored))
+    throw ConfigError("weights: there is no file {}", params.weights.string());
+}
+
 Network make_network(const NeuralParams& params, const NetworkDescription& description,
                      const at::Tensor& exemplar) {
   const int channels = static_cast<int>(exemplar.size(0));
@@ -38,10 +50,6 @@ Network make_network(const NeuralParams& params, const NetworkDescription& descr
     return Network::rescaled(description, shapes, std::move(filters), params.pooling, exemplar,
                              {params.exemplar_padding, params.exemplar_padding});
   }
-  if (!description.input_mean.empty() &&
-      description.input_mean.size() != static_cast<std::size_t>(channels))
-    throw Error("{}: trained weights of '{}' look at {} channels, the exemplar has {}",
-                params.weights.string(), description.name, description.input_mean.size(), channels);
   return {description, shapes, load_filters(description, shapes, params.weights), params.pooling};
 }
 

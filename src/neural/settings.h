@@ -13,13 +13,18 @@ namespace gramloom::neural {
 std::vector<Loss::MatchedLayer> matched_layers(const NeuralParams& params,
                                                NetworkDescription& description);
 
+/// Throws Error when trained weights are for another number of channels, ConfigError when there is
+/// no such file.
+void check_weights(const NeuralParams& params, const NetworkDescription& description, int channels);
+
 /// The network with its weights, random (rescaled on the exemplar where asked for) or from a file.
-/// exemplar: (channels, height, width), as the network sees it. Throws Error when trained weights
-/// are for another number of channels.
+/// exemplar: (channels, height, width), as the network sees it. Throws Error when the file does
+/// not have what the network needs.
 Network make_network(const NeuralParams& params, const NetworkDescription& description,
                      const at::Tensor& exemplar);
 
-/// A hash of everything that the result depends on, for checkpoints.
+/// A hash of what the result depends on, for checkpoints; of the weights and the image to start
+/// from it knows the names, not the content.
 std::string fingerprint(const NeuralParams& params, const Image& exemplar, const Target& target,
                         Random random);
 

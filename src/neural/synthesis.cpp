@@ -27,6 +27,7 @@ constexpr double seconds_between_checkpoints = 60;
 // The colours that a network sees: an affine map of the exemplar's, undone for the result.
 ColourPca network_colours(const NeuralParams& params, const NetworkDescription& description,
                           const Image& exemplar) {
+  check_weights(params, description, exemplar.channels);
   ColourPca colours = colour_pca(exemplar);
   if (params.weights.empty() && params.whiten_colour) return colours;
   const auto channels = static_cast<std::size_t>(colours.channels);
@@ -94,7 +95,8 @@ class Synthesis {
       state_.iteration = 0;
       state_.optimiser = {};
     }
-    return state_.picture;
+    // Stopped on a coarse level, it has that level's size.
+    return resample(state_.picture, target_.size, wrapped_axes(edges()));
   }
 
   const ColourPca& colours() const { return colours_; }
@@ -148,10 +150,11 @@ class Synthesis {
                           state_.iteration + 1);
             if (state_.iteration++ == 0) state_.first_loss = value;
             const bool go_on = report(value, loss.terms());
+            // The level is done, also for one who goes on from here later.
+            if (value <= params_.stop_loss * state_.first_loss || seconds() >= params_.stop_seconds)
+              state_.iteration = params_.iterations;
             keep(method, !go_on);
             if (!go_on) return false;
-            if (value <= params_.stop_loss * state_.first_loss) break;
-            if (seconds() >= params_.stop_seconds) break;
           }
           return true;
         },

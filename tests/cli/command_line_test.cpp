@@ -148,6 +148,15 @@ TEST_F(CommandLine, AnOutputThatCannotBeWritten) {
   }
 }
 
+TEST_F(CommandLine, AFileSizeLimitIsAFailedJobAndNoCrash) {
+  // 512 or 1024 bytes a block, by shell: enough for the records, not for the picture.
+  const Outcome outcome = shell(
+      folder_, "ulimit -f 16; $GRAMLOOM run c.toml --only 'e/q/seed1' --set size=200 --quiet");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("cannot write: File too large"), std::string::npos);
+}
+
 TEST_F(CommandLine, ListNamesMethodsPatternsAndTheirParameters) {
   const Outcome all = run({"list"});
   EXPECT_EQ(all.exit_code, 0);

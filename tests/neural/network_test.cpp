@@ -215,6 +215,14 @@ TEST_F(WeightsFile, AWrongShapeIsNamed) {
                         "[5, 4, 3, 3]"));
 }
 
+TEST_F(WeightsFile, SeveralFilterBanksInALayerAreRefused) {
+  for (const LayerKind& kind :
+       {LayerKind(BankLayer{4, {3, 3}, {1, 2}, {0, 0}}), LayerKind(PyramidLayer{4, 3, 2})}) {
+    network_.layers = {{"first", kind}, {"relu1", ReluLayer{}}};
+    EXPECT_THAT(message([&] { load(); }), HasSubstr("which only random weights can fill"));
+  }
+}
+
 TEST_F(WeightsFile, NotANumberIsNamed) {
   tensors_["features.0.bias"].values[2] = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THAT(message([&] { load(); }), HasSubstr("tensor 'features.0.bias' holds a value"));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/threads.h"
@@ -124,6 +125,27 @@ TEST(Neural, AnOnlyPixelOrALineIsAClearErrorOrAResult) {
   }
 }
 
+TEST(Neural, TrainedWeightsForOtherChannelsAreAClearError) {
+  NeuralParams params = quick();
+  params.network = "vgg19";
+  params.weights = testing::TempDir() + "unread.safetensors";
+  try {
+    run(params, stripes({64, 64}, 4), {{64, 64}, Tile::none});
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("look at 3 channels, the exemplar has 4"),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_THROW(estimate(params, {64, 64}, 4, {{64, 64}, Tile::none}), Error);
+}
+
+TEST(Neural, WeightsThatAreNotThereAreAMistakeOfTheConfig) {
+  NeuralParams params = quick();
+  params.weights = "no_such_weights";
+  EXPECT_THROW(estimate(params, {64, 64}, 3, {{64, 64}, Tile::none}), ConfigError);
+}
+
 TEST(Neural, CoarseToFineEndsAtTheFinestSize) {
   NeuralParams params = quick();
   params.levels = 3;
@@ -189,6 +211,39 @@ TEST_P(Interrupted, GoesOnToTheSameBytes) {
     EXPECT_EQ(resumed, whole) << "stopped at " << stop;
     fs::remove(checkpoint);
   }
+}
+
+TEST_P(Interrupted, StaysStoppedWhereItsLossWasLowEnough) {
+  NeuralParams params = quick();
+  params.optimizer = GetParam();
+  params.levels = 2;
+  params.iterations = 200;
+  params.stop_loss = 0.5;
+  const Image exemplar = stripes({48, 48}, 3);
+  const Target target{{48, 48}, Tile::both};
+  const fs::path checkpoint =
+      fs::path(testing::TempDir()) / fmt::format("loss_{}.checkpoint", to_word(params.optimizer));
+  fs::remove(checkpoint);
+  Trace whole, first, second;
+  const Image expected = synthesise(params, exemplar, target, Random(1), whole.control()).image;
+  const auto last_coarse = std::find_if(whole.steps.rbegin(), whole.steps.rend(),
+                                        [](const auto& p) { return p.step <= 200; });
+  synthesise(params, exemplar, target, Random(1), first.control(last_coarse->step, checkpoint));
+  const Image resumed =
+      synthesise(params, exemplar, target, Random(1), second.control(-1, checkpoint)).image;
+  EXPECT_EQ(second.steps.front().step, 201);
+  EXPECT_EQ(resumed, expected);
+  fs::remove(checkpoint);
+}
+
+TEST_P(Interrupted, OnACoarseLevelThePictureHasItsSizeAllTheSame) {
+  NeuralParams params = quick();
+  params.optimizer = GetParam();
+  params.levels = 2;
+  Trace trace;
+  const Texture texture =
+      synthesise(params, stripes({48, 48}, 3), {{50, 38}, Tile::x}, Random(1), trace.control(2));
+  EXPECT_EQ(texture.image.size(), (Size{50, 38}));
 }
 
 TEST_P(Interrupted, ACheckpointOfAnotherSynthesisIsNotUsed) {
