@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "classic/patch_features.h"
 #include "core/threads.h"
@@ -34,6 +36,18 @@ Image components(const Image& image, const ColourFrame& frame) {
         }
   });
   return at_least(result, smallest_side);
+}
+
+Image smoothly_halved(const Image& components) {
+  const cv::Mat in(components.height, components.width, CV_32FC(component_count),
+                   const_cast<float*>(components.pixels.data()));
+  cv::Mat smooth;
+  cv::GaussianBlur(in, smooth, {}, 1.2, 1.2, cv::BORDER_REFLECT);
+  Image half((components.width + 1) / 2, (components.height + 1) / 2, component_count);
+  for (int y = 0; y < half.height; ++y)
+    for (int x = 0; x < half.width; ++x)
+      std::copy_n(smooth.ptr<float>(2 * y, 2 * x), component_count, half.at(x, y));
+  return half;
 }
 
 }  // namespace gramloom

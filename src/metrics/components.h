@@ -23,4 +23,8 @@ ColourFrame colour_frame(const Image& exemplar);
 /// `component_count` channels (those beyond the image's are 0), at least `smallest_side` on a side.
 Image components(const Image& image, const ColourFrame& frame);
 
+/// Half the size (rounded up), smoothed by a Gaussian of 1.2 pixels: so little is left above the
+/// new grid's highest frequency that statistics don't depend on where the samples fall.
+Image smoothly_halved(const Image& components);
+
 }  // namespace gramloom

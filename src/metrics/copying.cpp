@@ -1,6 +1,8 @@
 #include "metrics/copying.h"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <vector>
 
 #include "core/simd.h"
@@ -43,21 +45,24 @@ double block_difference(const Image& image, int left, int top, const Image& exem
   return sum / pixels;
 }
 
-/// Whether the block is a copy from where one of the patches at its corners and middle is from.
+/// Whether the block, of this variance, is a copy from where one of its patches is from.
 bool is_copied(const PatchField& field, const Image& image, int left, int top,
-               const Image& exemplar, double limit) {
+               const Image& exemplar, double variance) {
   constexpr int far = copy_block - field_patch;
   constexpr int places[][2] = {{far / 2, far / 2}, {0, 0}, {far, 0}, {0, far}, {far, far}};
-  for (const auto& place : places) {
-    PatchOrigin from = field.nearest[field.index(left + place[0], top + place[1])];
-    from.x -= place[0];
-    from.y -= place[1];
-    if (from.x < 0 || from.y < 0 || from.x + copy_block > exemplar.width ||
-        from.y + copy_block > exemplar.height)
-      continue;
-    if (block_difference(image, left, top, exemplar, from, limit) <= limit) return true;
+  std::array<PatchOrigin, std::size(places)> origins;  // of the block, by each of the patches
+  for (std::size_t i = 0; i < origins.size(); ++i) {
+    const auto [x, y] = places[i];
+    const PatchOrigin from = field.nearest[field.index(left + x, top + y)];
+    origins[i] = {from.x - x, from.y - y};
   }
-  return false;
+  const bool agreed = std::count(origins.begin(), origins.end(), origins[0]) == std::ssize(origins);
+  const double limit = variance * (agreed ? copy_tolerance_agreed : copy_tolerance);
+  return std::any_of(origins.begin(), origins.end(), [&](PatchOrigin from) {
+    return from.x >= 0 && from.y >= 0 && from.x + copy_block <= exemplar.width &&
+           from.y + copy_block <= exemplar.height &&
+           block_difference(image, left, top, exemplar, from, limit) <= limit;
+  });
 }
 
 /// Where the blocks are, along one side: every block_step pixels, and the last that fits.
@@ -79,9 +84,8 @@ std::vector<char> mark_blocks(const PatchField& field, const Image& image, const
         for (auto r = static_cast<std::size_t>(begin); r < static_cast<std::size_t>(end); ++r)
           for (std::size_t c = 0; c < columns.size(); ++c) {
             const double variance = block_variance(image, columns[c], rows[r]);
-            const bool is_copy =
-                variance >= copy_flat &&
-                is_copied(field, image, columns[c], rows[r], exemplar, copy_tolerance * variance);
+            const bool is_copy = variance >= copy_flat &&
+                                 is_copied(field, image, columns[c], rows[r], exemplar, variance);
             of_block[r * columns.size() + c] = is_copy                ? copied
                                                : variance < copy_flat ? flat
                                                                       : counted;

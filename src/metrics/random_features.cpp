@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "classic/fourier.h"
-#include "classic/patch_features.h"
 #include "core/random.h"
 #include "core/simd.h"
 #include "core/threads.h"
@@ -17,6 +17,8 @@ namespace gramloom {
 namespace {
 
 constexpr std::uint64_t filter_seed = 0x68656c646f7574;  // of no synthesis
+constexpr int first_filters = 16, second_filters = 32;
+static_assert(first_filters + second_filters == RandomFeatures::count);
 constexpr int most_scales = 4;
 constexpr int smallest_scale = 16;  // pixels
 
@@ -85,6 +87,25 @@ RandomFeatures::Scale moments_of(const std::vector<cv::Mat>& maps) {
   return scale;
 }
 
+/// 1 / deviation of each feature. One that is nearly always 0 counts as a tenth of its layer's mean
+/// variance, lest a single active pixel decide.
+std::vector<double> units(const RandomFeatures::Scale& scale) {
+  constexpr int count = RandomFeatures::count;
+  std::vector<double> result;
+  for (int i = 0; i < count; ++i)
+    result.push_back(scale.moment[static_cast<std::size_t>(i * count + i)] -
+                     scale.mean[static_cast<std::size_t>(i)] *
+                         scale.mean[static_cast<std::size_t>(i)]);
+  const auto raise = [&](int begin, int end) {
+    const auto first = result.begin() + begin, last = result.begin() + end;
+    const double least = std::max(1e-6, 0.1 * std::accumulate(first, last, 0.0) / (end - begin));
+    for (auto v = first; v != last; ++v) *v = 1 / std::sqrt(std::max(*v, least));
+  };
+  raise(0, first_filters);
+  raise(first_filters, count);
+  return result;
+}
+
 }  // namespace
 
 RandomFeatures random_features(const Image& components) {
@@ -94,11 +115,11 @@ RandomFeatures random_features(const Image& components) {
          std::min(image.width, image.height) >= smallest_scale) {
     std::vector<cv::Mat> planes;
     for (int c = 0; c < image.channels; ++c) planes.push_back(channel_plane(image, c));
-    std::vector<cv::Mat> maps = convolved(planes, 1, 16, 5);
-    const std::vector<cv::Mat> second = convolved(maps, 2, 32, 3);
+    std::vector<cv::Mat> maps = convolved(planes, 1, first_filters, 5);
+    const std::vector<cv::Mat> second = convolved(maps, 2, second_filters, 3);
     maps.insert(maps.end(), second.begin(), second.end());
     features.scales.push_back(moments_of(maps));
-    image = halved(image);
+    image = smoothly_halved(image);
   }
   return features;
 }
@@ -109,9 +130,7 @@ double gram_distance(const RandomFeatures& exemplar, const RandomFeatures& image
   double total = 0;
   for (std::size_t s = 0; s < scales; ++s) {
     const auto &e = exemplar.scales[s], &x = image.scales[s];
-    std::vector<double> unit(count);
-    for (std::size_t i = 0; i < count; ++i)
-      unit[i] = 1 / std::sqrt(std::max(e.moment[i * count + i] - e.mean[i] * e.mean[i], 1e-6));
+    const std::vector<double> unit = units(e);
     double difference = 0, size = 1;  // the constant's own moment is 1
     for (std::size_t i = 0; i < count; ++i) {
       const double shift = (x.mean[i] - e.mean[i]) * unit[i];

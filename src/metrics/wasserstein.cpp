@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include "classic/patch_features.h"
 #include "core/random.h"
 #include "core/simd.h"
 #include "core/threads.h"
+#include "metrics/components.h"
 
 namespace gramloom {
 
@@ -30,17 +31,25 @@ std::vector<std::int64_t> sample(std::int64_t count, std::int64_t wanted) {
   return result;
 }
 
+/// Makes the mean of every `step`th value from `first` on 0.
+void remove_mean(std::vector<double>& values, int first, int step) {
+  const int length = static_cast<int>(values.size());
+  double sum = 0;
+  for (int i = first; i < length; i += step) sum += values[static_cast<std::size_t>(i)];
+  for (int i = first; i < length; i += step)
+    values[static_cast<std::size_t>(i)] -= sum * step / length;
+}
+
 /// `count` unit vectors of `length`, so that value v of direction d is at [v · count + d].
-std::vector<float> random_directions(int length, int count) {
+/// Those of a patch are of mean 0 in each of `components` interleaved ones; else `components` is 0.
+std::vector<float> random_directions(int length, int count, int components) {
   std::vector<float> result(static_cast<std::size_t>(length) * static_cast<std::size_t>(count));
   for (int d = 0; d < count; ++d) {
     Random random = Random(direction_seed, 2).stream(static_cast<std::uint64_t>(d));
     std::vector<double> v;
-    double squares = 0;
-    for (int i = 0; i < length; ++i) {
-      v.push_back(double{random.normal()});
-      squares += v.back() * v.back();
-    }
+    for (int i = 0; i < length; ++i) v.push_back(double{random.normal()});
+    for (int c = 0; c < components; ++c) remove_mean(v, c, components);
+    const double squares = std::inner_product(v.begin(), v.end(), v.begin(), 0.0);
     for (int i = 0; i < length; ++i)
       result[static_cast<std::size_t>(i) * static_cast<std::size_t>(count) +
              static_cast<std::size_t>(d)] =
@@ -103,7 +112,7 @@ Projections colour_projections(const Image& image, double scale) {
   constexpr int most_axes = 4, random_count = 16;
   const int axes = std::min(most_axes, image.channels);
   const int extra = image.channels == 1 ? 0 : random_count;
-  const auto directions = random_directions(image.channels, random_count);
+  const auto directions = random_directions(image.channels, random_count, 0);
   const auto channels = static_cast<std::size_t>(image.channels);
   const auto places = sample(std::int64_t{image.width} * image.height, 65536);
   Projections result(static_cast<std::size_t>(axes + extra), std::vector<float>(places.size()));
@@ -149,8 +158,8 @@ double quantile_distance(const std::vector<float>& a, const std::vector<float>& 
 }
 
 double patch_wasserstein(const Image& exemplar, const Image& image) {
-  const auto directions =
-      random_directions(patch_side * patch_side * exemplar.channels, patch_directions);
+  const auto directions = random_directions(patch_side * patch_side * exemplar.channels,
+                                            patch_directions, exemplar.channels);
   Image e = exemplar, x = image;
   double total = 0;
   int scales = 0;
@@ -160,8 +169,8 @@ double patch_wasserstein(const Image& exemplar, const Image& image) {
     for (std::size_t d = 0; d < patch_directions; ++d)
       total += quantile_distance(of_e[d], of_x[d]) / std::max(deviation(of_e[d]), 1e-3);
     if (++scales == patch_scales) break;
-    e = halved(e);
-    x = halved(x);
+    e = smoothly_halved(e);
+    x = smoothly_halved(x);
     if (std::min({e.width, e.height, x.width, x.height}) < patch_side) break;
   }
   return total / (scales * patch_directions);

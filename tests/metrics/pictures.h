@@ -1,14 +1,23 @@
 #pragma once
 
+#include <algorithm>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string_view>
+#include <utility>
+
 #include "classic/quilting.h"
+#include "core/error.h"
 #include "core/image.h"
+#include "core/random.h"
 #include "metrics/scores.h"
 #include "procedural/texture.h"
 
 namespace gramloom {
 
-/// A tileable procedural texture.
-inline Image painted(ProceduralTexture texture, Size size, std::uint64_t seed, double scale) {
+/// A procedural texture that tiles.
+inline Image painted(ProceduralTexture texture, double scale, std::uint64_t seed = 1,
+                     Size size = {128, 128}) {
   ProceduralParams params;
   params.texture = std::move(texture);
   params.scale = scale;
@@ -16,17 +25,50 @@ inline Image painted(ProceduralTexture texture, Size size, std::uint64_t seed, d
   return synthesise(params, Target{size, Tile::both}, Random(seed)).image;
 }
 
-inline Image cropped(const Image& image, int left, int top, Size size) {
+inline Image brick(std::uint64_t seed = 1) { return painted(Brick{}, 3, seed); }
+inline Image pebbles(std::uint64_t seed = 1) { return painted(Pebbles{}, 5, seed); }
+inline Image stones(std::uint64_t seed = 1) { return painted(StoneWall{}, 6, seed); }
+
+inline Image quilted(const Image& exemplar, Size size = {128, 128}) {
+  return synthesise(QuiltingParams{}, exemplar, Target{size, Tile::both}, Random(1), Control{})
+      .image;
+}
+
+/// Normal numbers of mean 0.5.
+inline Image grain(Size size, int channels, std::uint64_t seed = 1, float deviation = 0.1f) {
+  Random random(seed);
+  Image image(size, channels);
+  for (float& value : image.pixels) value = 0.5f + deviation * random.normal();
+  return image;
+}
+
+inline Image noisy(Image image, float deviation) {
+  Random random(9);
+  for (float& value : image.pixels) value += deviation * random.normal();
+  return image;
+}
+
+inline Image blurred(const Image& image, double deviation) {
+  Image result = image;
+  cv::Mat pixels(image.height, image.width, CV_32FC(image.channels), result.pixels.data());
+  cv::GaussianBlur(pixels.clone(), pixels, {}, deviation, deviation, cv::BORDER_REFLECT);
+  return result;
+}
+
+/// The image around its torus from (left, top) on.
+inline Image window(const Image& image, int left, int top, Size size) {
   Image result(size, image.channels);
   for (int y = 0; y < size.height; ++y)
-    std::copy_n(image.at(left, top + y), size.width * image.channels, result.at(0, y));
+    for (int x = 0; x < size.width; ++x)
+      std::copy_n(image.at((left + x) % image.width, (top + y) % image.height), image.channels,
+                  result.at(x, y));
   return result;
 }
 
 inline double value(const Scores& scores, std::string_view name) {
   for (const auto& [of, score] : scores.values)
     if (of == name) return score;
-  throw Error("no score {}", name);
+  throw Error("there is no score {}", name);
 }
 
 }  // namespace gramloom
