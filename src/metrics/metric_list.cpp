@@ -25,12 +25,15 @@ constexpr Metric list[]{
     {"patch_wasserstein", "likeness",
      "sliced Wasserstein distance of 7x7 patches at 3 scales, in deviations", "from 0; 0 is equal",
      false, "Rabin, Peyre, Delon, Bernot 2011; Elnekave & Weiss 2022",
-     "how patches are arranged: a jumble of true patches is nearly perfect"},
+     "how patches are arranged: a jumble of true patches is nearly perfect; random phase of a fine "
+     "grain comes out well; brightness and colours, which patches are compared without"},
     {"colour_wasserstein", "likeness", "sliced Wasserstein distance of colours, in deviations",
      "from 0; 0 is equal", false, "Rabin, Peyre, Delon, Bernot 2011",
      "any arrangement: shuffled pixels are perfect"},
-    {"spectrum_db", "likeness", "difference of the radial power spectra", "from 0 dB; 0 is equal",
-     false, "Galerne, Gousseau, Morel 2011 (the spectrum as a texture's model)",
+    {"spectrum_db", "likeness",
+     "difference of the radial power spectra, from 4 periods a side up, in dB",
+     "from 0 dB; 0 is equal", false,
+     "Galerne, Gousseau, Morel 2011 (the spectrum as a texture's model)",
      "shapes and directions: random phase is nearly perfect"},
     {"autocorrelation", "likeness",
      "difference of the self-correlations at shifts up to a quarter of the exemplar",
@@ -43,7 +46,9 @@ constexpr Metric list[]{
      "or "
      "mirrored ones are missed"},
     {"copied_share", "copying",
-     "share of the area that lies in 16x16 blocks of the exemplar (within 5 % of their variance)",
+     "share of the area, flat parts aside, in 16x16 blocks that the exemplar has too, within 10 % "
+     "of "
+     "their variance (50 % where five patches in them agree on the place)",
      "0 to 1; low is original", false, "Barnes et al. 2009 (nearest patches)",
      "exact regular textures and smooth gradients are alike without copying; copies in pieces "
      "under "

