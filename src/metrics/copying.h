@@ -16,9 +16,10 @@ inline constexpr double copy_tolerance_agreed = 0.5;
 inline constexpr double copy_flat = 0.01;
 
 struct Copying {
-  double share = 0;  // of the area of blocks that are not flat, in copied ones; 0 if all are
-  double coherence =
-      0;      // of pairs of neighbouring patches whose nearest patches are neighbours too
+  /// Of the area of blocks that are not flat, in copied ones; 0 if all are flat.
+  double share = 0;
+  /// Of pairs of neighbouring patches, with nearest patches that are neighbours likewise.
+  double coherence = 0;
   Image map;  // see Scores::copy_map
 };
 
