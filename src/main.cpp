@@ -4,18 +4,21 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
 
 #include "core/error.h"
 #include "core/threads.h"
+#include "io/field_values.h"
 #include "jobs/config.h"
 #include "jobs/listing.h"
 #include "jobs/machine.h"
 #include "jobs/plan.h"
 #include "jobs/progress_bar.h"
 #include "jobs/runner.h"
+#include "jobs/score_files.h"
 
 namespace {
 
@@ -29,6 +32,11 @@ struct Arguments {
   std::string only;
   std::vector<std::string> set;
   std::string topic;
+  std::string exemplar;
+  std::vector<std::string> images;
+  std::string tile = "none";
+  bool json = false;
+  bool controls = false;
   int threads = 0;
   bool resume = false;
   bool quiet = false;
@@ -101,7 +109,19 @@ ExitCode list_command(const Arguments& arguments) {
   if (wanted("methods")) text += list_methods();
   if (wanted("networks")) text += list_networks();
   if (wanted("patterns")) text += list_patterns();
+  if (wanted("metrics")) text += list_metrics();
   return print(text);
+}
+
+ExitCode score_command(const Arguments& arguments) {
+  set_thread_count(arguments.threads);
+  constexpr auto names = enum_names<Tile>;
+  static_assert(NamedEnum<Tile>);
+  const Tile tile =
+      static_cast<Tile>(std::find(names.begin(), names.end(), arguments.tile) - names.begin());
+  const auto scored =
+      score_files(arguments.exemplar, arguments.images, tile, arguments.controls, {});
+  return print(arguments.json ? score_json(scored) : score_table(scored));
 }
 
 void add_config_options(CLI::App& command, Arguments& arguments) {
@@ -135,6 +155,22 @@ void add_run(CLI::App& app, Arguments& arguments) {
   run->add_flag("--quiet", arguments.quiet, "show no progress");
 }
 
+void add_score(CLI::App& app, Arguments& arguments) {
+  CLI::App* score = app.add_subcommand(
+      "score", "Score pictures, of gramloom or not, against the exemplar they were made from");
+  score->add_option("exemplar", arguments.exemplar, "the exemplar's file")->required();
+  score->add_option("images", arguments.images, "pictures to score")->required();
+  score->add_flag("--json", arguments.json, "JSON in place of a table");
+  score->add_flag("--controls", arguments.controls,
+                  "score pictures with known faults beside them: shuffled pixels, random phase, "
+                  "the exemplar tiled, its halves");
+  score->add_option("--tile", arguments.tile, "axes on which the pictures tile, for the seams")
+      ->check(CLI::IsMember({"none", "x", "y", "both"}));
+  score->add_option("--threads", arguments.threads, "threads; 0: every core")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024));
+}
+
 ExitCode dispatch(int argc, char** argv) {
   Arguments arguments;
   CLI::App app("New textures from a small picture of one.", "gramloom");
@@ -146,9 +182,10 @@ ExitCode dispatch(int argc, char** argv) {
       *app.add_subcommand("check",
                           "Validate a config and list its jobs with estimated memory and time"),
       arguments);
-  app.add_subcommand("list", "List methods, networks and patterns with their parameters")
-      ->add_option("topic", arguments.topic, "methods, networks or patterns; all when left out")
-      ->check(CLI::IsMember({"methods", "networks", "patterns"}));
+  app.add_subcommand("list", "List methods, networks, patterns and metrics")
+      ->add_option("topic", arguments.topic, "one of methods, networks, patterns, metrics")
+      ->check(CLI::IsMember({"methods", "networks", "patterns", "metrics"}));
+  add_score(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {
@@ -163,6 +200,7 @@ ExitCode dispatch(int argc, char** argv) {
   const std::string command = app.get_subcommands().front()->get_name();
   if (command == "run") return run_command(arguments);
   if (command == "check") return check_command(arguments);
+  if (command == "score") return score_command(arguments);
   return list_command(arguments);
 }
 

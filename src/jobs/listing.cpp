@@ -6,32 +6,13 @@
 #include "io/field_values.h"
 #include "jobs/memory.h"
 #include "jobs/progress_bar.h"
+#include "jobs/text_table.h"
+#include "metrics/scores.h"
 #include "neural/network_description.h"
 
 namespace gramloom {
 
 namespace {
-
-constexpr std::size_t longest_column = 44;
-
-using Row = std::vector<std::string>;
-
-// Columns of text, each as wide as its longest cell; the last one is not filled up.
-std::string table(const std::vector<Row>& rows, std::string_view indent) {
-  std::vector<std::size_t> widths;
-  for (const auto& row : rows) {
-    widths.resize(std::max(widths.size(), row.size()));
-    for (std::size_t i = 0; i + 1 < row.size(); ++i)
-      widths[i] = std::max(widths[i], std::min(row[i].size(), longest_column));
-  }
-  std::string text;
-  for (const auto& row : rows) {
-    std::string line(indent);
-    for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format("{:<{}}  ", row[i], widths[i]);
-    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-  }
-  return text;
-}
 
 // A row for each parameter of Params' own.
 template <class Params>
@@ -52,7 +33,7 @@ std::string list_textures() {
   std::string text;
   for_each_alternative<Textures>([&]<class T>(std::type_identity<T>) {
     text += fmt::format("{}: {}\n", T::name, T::summary);
-    text += table(parameter_rows<T>(), "  ") + "\n";
+    text += text_table(parameter_rows<T>(), "  ") + "\n";
   });
   return text;
 }
@@ -68,7 +49,7 @@ std::string list_methods() {
       rows.insert(rows.begin(),
                   {std::string(Params::variant_key), "", "a name",
                    "which one, with its own parameters: see 'gramloom list patterns'"});
-    text += table(rows, "  ") + "\n";
+    text += text_table(rows, "  ") + "\n";
   });
   return text;
 }
@@ -77,8 +58,9 @@ std::string list_patterns() {
   std::string text;
   for_each_alternative<Method>([&]<class Params>(std::type_identity<Params>) {
     if constexpr (HasVariant<Params>) {
-      text += fmt::format("Every {} = … of the kind '{}' has:\n", Params::variant_key, Params::kind);
-      text += table(parameter_rows<Params>(), "  ") + "\n";
+      text +=
+          fmt::format("Every {} = … of the kind '{}' has:\n", Params::variant_key, Params::kind);
+      text += text_table(parameter_rows<Params>(), "  ") + "\n";
       text += list_textures<decltype(Params::texture)>();
     }
   });
@@ -89,7 +71,7 @@ std::string list_networks() {
   std::vector<Row> rows;
   for (const auto& file : known_networks())
     rows.push_back({file.stem().string(), read_network(file).summary});
-  return table(rows, "") + "\n";
+  return text_table(rows, "") + "\n";
 }
 
 std::string job_table(const Config& config, const Plan& plan) {
@@ -107,8 +89,19 @@ std::string job_table(const Config& config, const Plan& plan) {
                     clock_text(planned.cost.seconds),
                     problem.empty() ? "" : "cannot run: " + problem});
   }
-  return table(rows, "") +
+  return text_table(rows, "") +
          fmt::format("{} {}, about {}\n", count, count == 1 ? "job" : "jobs", clock_text(seconds));
+}
+
+std::string list_metrics() {
+  std::string text;
+  for (const Metric& metric : metrics()) {
+    text += fmt::format("{} ({}): {}\n", metric.name, metric.group, metric.meaning);
+    text += fmt::format("  {}; {} is better; {}\n", metric.range,
+                        metric.higher_is_better ? "more" : "less", metric.paper);
+    text += fmt::format("  fooled by {}\n\n", metric.fooled_by);
+  }
+  return text;
 }
 
 }  // namespace gramloom

@@ -19,4 +19,7 @@ std::string list_networks();
 /// The selected jobs with their estimated memory and time, and what keeps one from running.
 std::string job_table(const Config& config, const Plan& plan);
 
+/// Every score with its meaning, its range and what fools it.
+std::string list_metrics();
+
 }  // namespace gramloom

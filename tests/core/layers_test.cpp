@@ -21,7 +21,7 @@ const std::map<std::string, std::set<std::string>> may_include{
     {"classic", {"core"}},
     {"surface", {"core"}},
     {"neural", {"core", "io"}},
-    {"metrics", {"core", "neural"}},
+    {"metrics", {"core", "classic"}},
     {"report", {"core", "io"}},
     {"jobs", {"core", "io", "procedural", "classic", "neural", "surface", "metrics"}},
 };

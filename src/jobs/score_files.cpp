@@ -1,0 +1,71 @@
+#include "jobs/score_files.h"
+
+#include <nlohmann/json.hpp>
+
+#include "io/image_file.h"
+#include "jobs/text_table.h"
+#include "metrics/controls.h"
+
+namespace gramloom {
+
+namespace {
+
+// The value of this name, or nothing where the picture has none.
+std::string value_text(const Scores& scores, std::string_view name) {
+  for (const auto& [own, value] : scores.values)
+    if (own == name) return fmt::format("{:.4g}", value);
+  return "-";
+}
+
+std::vector<ScoredImage> score_controls(const Image& exemplar, const Control& control) {
+  std::vector<ScoredImage> scored;
+  const auto& names = enum_names<ControlKind>;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    // Twice the size: at its own, the exemplar tiled is the exemplar.
+    const Size size{2 * exemplar.width, 2 * exemplar.height};
+    const auto pair = control_pair(static_cast<ControlKind>(i), exemplar, size, Random(1));
+    scored.push_back({fmt::format("control:{}", names[i]),
+                      score(pair.exemplar, pair.image, Tile::none, control)});
+  }
+  return scored;
+}
+
+}  // namespace
+
+std::vector<ScoredImage> score_files(const std::filesystem::path& exemplar,
+                                     const std::vector<std::string>& images, Tile tile,
+                                     bool controls, const Control& control) {
+  const Image own = read_image(exemplar).image;
+  std::vector<ScoredImage> scored;
+  for (const auto& name : images) {
+    const Image image = read_image(name).image;
+    if (image.channels != own.channels)
+      throw Error("{}: has {} channels, the exemplar {} has {}", name, image.channels,
+                  exemplar.string(), own.channels);
+    scored.push_back({name, score(own, image, tile, control)});
+  }
+  if (controls)
+    for (auto& one : score_controls(own, control)) scored.push_back(std::move(one));
+  return scored;
+}
+
+std::string score_table(const std::vector<ScoredImage>& scored) {
+  std::vector<Row> rows{{"score", "better"}};
+  for (const auto& one : scored) rows[0].push_back(one.name);
+  for (const Metric& metric : metrics()) {
+    if (metric.group == "diversity") continue;  // of several seeds, not of one picture
+    Row row{std::string(metric.name), metric.higher_is_better ? "more" : "less"};
+    for (const auto& one : scored) row.push_back(value_text(one.scores, metric.name));
+    rows.push_back(std::move(row));
+  }
+  return text_table(rows, "");
+}
+
+std::string score_json(const std::vector<ScoredImage>& scored) {
+  nlohmann::ordered_json json;
+  for (const auto& one : scored)
+    for (const auto& [name, value] : one.scores.values) json[one.name][std::string(name)] = value;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace gramloom

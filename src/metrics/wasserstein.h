@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "core/image.h"
+
+namespace gramloom {
+
+// Sliced Wasserstein distances: the mean over fixed random directions of the one-dimensional
+// Wasserstein-1 distance of the projections (Rabin, Peyré, Delon, Bernot 2011, "Wasserstein
+// barycenter and its application to texture mixing"). 0 for equal distributions.
+
+/// The mean over ranks of the distance between the quantile functions of two ascending lists, at as
+/// many ranks as the shorter one has.
+double quantile_distance(const std::vector<float>& a, const std::vector<float>& b);
+
+/// Of 7×7 patches of components at 3 scales, halved each time (Heitz et al. 2021; Elnekave & Weiss
+/// 2022), along 64 directions of mean 0 in each component (colours have a score of their own, and a
+/// patch's mean would drown its structure), each in the exemplar's deviations along it. Of each
+/// scale 16384 patches are taken where there are more, one at random from each of as many equal
+/// runs.
+double patch_wasserstein(const Image& exemplar, const Image& image);
+
+/// Of pixels with all their channels, in units of the exemplar's total deviation (`scale` is its
+/// inverse), along the channels (up to 4) and 16 more directions. Of more than 65536 pixels as many
+/// are taken.
+double colour_wasserstein(const Image& exemplar, const Image& image, double scale);
+
+}  // namespace gramloom
