@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "classic/check_input.h"
 #include "classic/patch_features.h"
 #include "classic/patch_field.h"
 #include "classic/patch_penalty.h"
@@ -118,9 +119,7 @@ Image picked(const Image& exemplar, const std::vector<PatchOrigin>& pixels, Size
 Texture synthesise(const PatchmatchParams& params, const Image& exemplar, const Target& target,
                    Random random, const Control& control) {
   check_fields(params);
-  if (exemplar.empty()) throw Error("patchmatch needs an exemplar with at least one pixel");
-  if (target.size.width < 1 || target.size.height < 1)
-    throw Error("a texture of {}×{} pixels cannot be made", target.size.width, target.size.height);
+  check_input(exemplar, target);
   const Image source = at_least(exemplar, smallest_side);
   // A texture that does not tile may be cut from a larger one; one that tiles wraps at any size.
   const Size size{

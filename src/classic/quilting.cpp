@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "classic/check_input.h"
 #include "classic/overlap.h"
 #include "classic/patch_grid.h"
 #include "classic/seam.h"
@@ -146,9 +147,7 @@ PatchAxis cover_axis(const QuiltingParams& params, int exemplar, int length, boo
 Texture synthesise(const QuiltingParams& params, const Image& exemplar, const Target& target,
                    Random random, const Control& control) {
   check_fields(params);
-  if (exemplar.empty()) throw Error("quilting needs an exemplar with at least one pixel");
-  if (target.size.width < 1 || target.size.height < 1)
-    throw Error("a texture of {}×{} pixels cannot be made", target.size.width, target.size.height);
+  check_input(exemplar, target);
   const PatchAxis x = cover_axis(params, exemplar.width, target.size.width, tiles_x(target.tile));
   const PatchAxis y = cover_axis(params, exemplar.height, target.size.height, tiles_y(target.tile));
   Quilt quilt{params,
