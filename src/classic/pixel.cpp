@@ -3,21 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "classic/check_input.h"
 #include "classic/pixel_algorithms.h"
 
 namespace gramloom {
 namespace {
-
-void check(const Image& exemplar, const Target& target) {
-  if (exemplar.empty()) throw Error("pixel: the exemplar is empty");
-  if (exemplar.channels > 64)
-    throw Error("pixel: the exemplar has {} channels; at most 64 are allowed", exemplar.channels);
-  if (!std::all_of(exemplar.pixels.begin(), exemplar.pixels.end(),
-                   [](float value) { return std::isfinite(value); }))
-    throw Error("pixel: the exemplar has values that are not finite");
-  if (target.size.width < 1 || target.size.height < 1)
-    throw Error("pixel: the size {} × {} has no pixels", target.size.width, target.size.height);
-}
 
 pixel::Canvas sources(const PixelParams& params, const Image& exemplar, const Target& target,
                       Random random, const Control& control) {
@@ -37,7 +27,7 @@ pixel::Canvas sources(const PixelParams& params, const Image& exemplar, const Ta
 Texture synthesise(const PixelParams& params, const Image& exemplar, const Target& target,
                    Random random, const Control& control) {
   check_fields(params);
-  check(exemplar, target);
+  check_input(exemplar, target);
   return {pixel::colours_of(sources(params, exemplar, target, random, control), exemplar), {}};
 }
 
