@@ -12,6 +12,8 @@
 #include "core/error.h"
 #include "core/threads.h"
 #include "io/field_values.h"
+#include "io/text_file.h"
+#include "jobs/baseline_compare.h"
 #include "jobs/config.h"
 #include "jobs/listing.h"
 #include "jobs/machine.h"
@@ -40,6 +42,7 @@ struct Arguments {
   int threads = 0;
   bool resume = false;
   bool quiet = false;
+  std::string baseline;
 };
 
 std::atomic<bool> stop_asked{false};
@@ -72,6 +75,32 @@ ExitCode print(const std::string& text) {
   throw Error("cannot write to standard output: {}", std::strerror(errno));
 }
 
+// What --baseline names, read and checked before any work.
+std::optional<Baseline> earlier_run(const Arguments& arguments, const RunOptions& options) {
+  if (arguments.baseline.empty()) return std::nullopt;
+  try {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(arguments.baseline, options.output, ignored))
+      throw Error("this run would write over it; choose another --output");
+    Baseline baseline = read_baseline(arguments.baseline, options.only);
+    check_pictures(baseline);
+    return baseline;
+  } catch (const Error& error) {
+    throw ConfigError("--baseline {}: {}", arguments.baseline, error.what());
+  }
+}
+
+// Prints what differs from an earlier run and leaves it as baseline.json; whether any of it is for
+// the worse.
+bool got_worse(const Baseline& before, const Config& config, const RunOptions& options,
+               bool quiet) {
+  const Baseline now = read_baseline(options.output, options.only);
+  const auto changes = compare(before, now, config.baseline);
+  write_text(options.output / "baseline.json", change_json(changes, before, config.baseline));
+  if (!quiet || !changes.empty()) print(change_table(changes, before, now));
+  return count_worse(changes) > 0;
+}
+
 ExitCode run_command(const Arguments& arguments) {
   keep_large_buffers();
   set_thread_count(arguments.threads);
@@ -84,6 +113,7 @@ ExitCode run_command(const Arguments& arguments) {
   options.only = arguments.only;
   options.resume = arguments.resume;
   options.stop = [] { return stop_asked.load(); };
+  const std::optional<Baseline> before = earlier_run(arguments, options);
   ProgressBar bar(progress_style(arguments.quiet));
   const RunSummary summary = run(config, options, bar);
   if (summary.interrupted + summary.left > 0) {
@@ -93,7 +123,12 @@ ExitCode run_command(const Arguments& arguments) {
         summary.done + summary.skipped + summary.failed + summary.interrupted + summary.left));
     return interrupted;
   }
-  return summary.failed > 0 ? job_failed : all_done;
+  if (summary.unscored) {
+    bar.complaint("gramloom: interrupted, not all textures are scored; --resume goes on");
+    return interrupted;
+  }
+  const bool worse = before && got_worse(*before, config, options, arguments.quiet);
+  return worse || summary.failed > 0 ? job_failed : all_done;
 }
 
 ExitCode check_command(const Arguments& arguments) {
@@ -152,6 +187,10 @@ void add_run(CLI::App& app, Arguments& arguments) {
       ->type_name("N")
       ->check(CLI::Range(0, 1024));
   run->add_flag("--resume", arguments.resume, "keep finished jobs and go on with unfinished ones");
+  run->add_option("--baseline", arguments.baseline,
+                  "folder of an earlier run: print what differs, by the limits of the config's "
+                  "[baseline]; exit code 1 when something got worse")
+      ->type_name("DIR");
   run->add_flag("--quiet", arguments.quiet, "show no progress");
 }
 
@@ -176,7 +215,9 @@ ExitCode dispatch(int argc, char** argv) {
   CLI::App app("New textures from a small picture of one.", "gramloom");
   app.set_version_flag("--version", fmt::format("gramloom {}", version()));
   app.require_subcommand(1);
-  app.footer("Exit code: 0 all done; 1 a job failed; 2 bad usage or config; 130 interrupted.");
+  app.footer(
+      "Exit code: 0 all done; 1 a job failed or got worse; 2 bad usage or config; 130 "
+      "interrupted.");
   add_run(app, arguments);
   add_config_options(
       *app.add_subcommand("check",
@@ -218,7 +259,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     print_message("gramloom: out of memory");
   } catch (const std::exception& error) {
-    print_message(fmt::format("gramloom: {}", error.what()));
+    print_message(fmt::format("gramloom: {}", first_line(error.what())));
   }
   return job_failed;
 }

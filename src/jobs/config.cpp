@@ -60,6 +60,16 @@ std::vector<MethodEntry> read_methods(toml::table& config) {
   return methods;
 }
 
+// The [baseline] table, where there is one.
+BaselineLimits read_limits(toml::table& config) {
+  BaselineLimits limits;
+  const toml::table* table = single_section(config, "baseline");
+  if (!table) return limits;
+  check_keys(*table, key_names<BaselineLimits>());
+  read_fields(limits, *table);
+  return limits;
+}
+
 void check_seeds(const Config& config, const toml::table& table) {
   const toml::source_region& region = key_region(table, "seeds");
   if (config.seeds.empty()) fail(region, "'seeds' is empty");
@@ -90,7 +100,7 @@ Config parse_config(const std::string& text, const fs::path& file,
   toml::table table = parse_toml(text, file.string());
   for (const auto& option : overrides) apply_override(table, option);
   std::vector<std::string> keys = config_keys();
-  keys.insert(keys.end(), {"exemplar", "method"});
+  keys.insert(keys.end(), {"exemplar", "method", "baseline"});
   check_keys(table, keys);
 
   Config config;
@@ -100,6 +110,7 @@ Config parse_config(const std::string& text, const fs::path& file,
   read_fields(config, table);
   config.exemplars = read_exemplars(table);
   config.methods = read_methods(table);
+  config.baseline = read_limits(table);
   check_whole(config, table);
   return config;
 }

@@ -8,6 +8,7 @@
 #include "core/fields.h"
 #include "core/image.h"
 #include "io/image_file.h"
+#include "jobs/baseline_limits.h"
 #include "jobs/methods.h"
 
 namespace gramloom {
@@ -54,8 +55,10 @@ struct Config {
   Tile tile = Tile::none;
   FileFormat format = FileFormat::automatic;
   std::optional<PixelType> pixel_type;  // none: the exemplar's
+  bool scores = true;
   std::vector<ExemplarEntry> exemplars;
   std::vector<MethodEntry> methods;
+  BaselineLimits baseline;  // its [baseline]
 
   static constexpr auto fields() {
     using C = Config;
@@ -65,6 +68,7 @@ struct Config {
         Field{"tile", &C::tile, "which edges must meet seamlessly"},
         Field{"format", &C::format, "file type of the results"},
         Field{"pixel_type", &C::pixel_type, "how results store a value; the exemplar's if not set"},
+        Field{"scores", &C::scores, "score each texture against its exemplar"},
     };
   }
 };
@@ -75,8 +79,8 @@ inline constexpr std::string_view procedural_folder = "procedural";
 
 /// Reads a config file and checks all that can be known without reading a picture; `overrides` are
 /// "key=value" (a top-level key, or a parameter of every method that has it),
-/// "method.NAME.key=value" or "exemplar.NAME.key=value". Throws ConfigError, which says where the
-/// mistake is.
+/// "method.NAME.key=value", "exemplar.NAME.key=value" or "baseline.key=value". Throws ConfigError,
+/// which says where the mistake is.
 Config read_config(const std::filesystem::path& file,
                    const std::vector<std::string>& overrides = {});
 

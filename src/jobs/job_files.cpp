@@ -10,8 +10,13 @@ namespace fs = std::filesystem;
 
 JobFiles job_files(const fs::path& output, const std::string& job) {
   const fs::path stem = output / job;
-  return {stem.parent_path(),     stem.filename().string(),      stem.string() + ".json",
-          stem.string() + ".csv", stem.string() + ".checkpoint", stem.string() + ".checkpoint.csv"};
+  return {stem.parent_path(),
+          stem.filename().string(),
+          stem.string() + ".json",
+          stem.string() + ".csv",
+          stem.string() + ".copy_map.png",
+          stem.string() + ".checkpoint",
+          stem.string() + ".checkpoint.csv"};
 }
 
 void create_folder(const fs::path& folder) {

@@ -12,6 +12,7 @@ struct JobFiles {
   std::string name;                        // "seed1": what its files begin with
   std::filesystem::path record;            // seed1.json
   std::filesystem::path trace;             // seed1.csv
+  std::filesystem::path copy_map;          // seed1.copy_map.png
   std::filesystem::path checkpoint;        // seed1.checkpoint
   std::filesystem::path checkpoint_trace;  // seed1.checkpoint.csv
 };

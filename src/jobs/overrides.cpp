@@ -48,6 +48,16 @@ bool assign_in_section(toml::table& config, std::string_view kind, const std::st
   return true;
 }
 
+// "baseline.key": into that table. False: not of this form.
+bool assign_in_baseline(toml::table& config, const std::string& path, std::string_view value,
+                        const std::string& option) {
+  constexpr std::string_view prefix = "baseline.";
+  if (!path.starts_with(prefix)) return false;
+  if (!single_section(config, "baseline")) config.insert("baseline", toml::table());
+  assign(*single_section(config, "baseline"), path.substr(prefix.size()), value, option);
+  return true;
+}
+
 // Into every method that has the key.
 void assign_in_methods(toml::table& config, const std::string& key, std::string_view value,
                        const std::string& option) {
@@ -81,6 +91,13 @@ std::vector<toml::table*> section(toml::table& config, std::string_view name) {
   return tables;
 }
 
+toml::table* single_section(toml::table& config, std::string_view name) {
+  toml::node* node = config.get(name);
+  if (node && !node->is_table())
+    fail(key_region(config, name), "'{}' must be a table: [{}]", name, name);
+  return node ? node->as_table() : nullptr;
+}
+
 void apply_override(toml::table& config, const std::string& option) {
   const std::size_t equals = option.find('=');
   if (equals == std::string::npos || equals == 0)
@@ -90,7 +107,8 @@ void apply_override(toml::table& config, const std::string& option) {
   if (contains(config_keys(), key))
     assign(config, key, value, option);
   else if (!assign_in_section(config, "method", key, value, option) &&
-           !assign_in_section(config, "exemplar", key, value, option))
+           !assign_in_section(config, "exemplar", key, value, option) &&
+           !assign_in_baseline(config, key, value, option))
     assign_in_methods(config, key, value, option);
 }
 

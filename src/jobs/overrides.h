@@ -14,6 +14,9 @@ std::vector<std::string> config_keys();
 /// it is no list of tables.
 std::vector<toml::table*> section(toml::table& config, std::string_view name);
 
+/// The [section] table of a config, or none. Throws ConfigError when it is no table.
+toml::table* single_section(toml::table& config, std::string_view name);
+
 /// Puts "key=value" into the config's tables, in place of what they say. Throws ConfigError when
 /// there is nothing that has such a key.
 void apply_override(toml::table& config, const std::string& option);

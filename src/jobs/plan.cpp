@@ -47,13 +47,6 @@ void estimate_job(const Config& config, const Plan& plan, PlannedJob& planned) {
   }
 }
 
-bool matches(const std::string& pattern, const Config& config, const Job& job) {
-  const auto match = [&](const std::string& text) {
-    return fnmatch(pattern.c_str(), text.c_str(), 0) == 0;
-  };
-  return pattern.empty() || match(job_folder(config, job)) || match(job_name(config, job));
-}
-
 std::vector<Job> all_jobs(const Config& config) {
   std::vector<Job> jobs;
   const auto add = [&](std::optional<std::size_t> exemplar, bool with_exemplar) {
@@ -69,14 +62,23 @@ std::vector<Job> all_jobs(const Config& config) {
 
 }  // namespace
 
+std::string exemplar_name(const Config& config, const Job& job) {
+  return job.exemplar ? config.exemplars[*job.exemplar].name : std::string(procedural_folder);
+}
+
 std::string job_folder(const Config& config, const Job& job) {
-  return fmt::format("{}/{}",
-                     job.exemplar ? config.exemplars[*job.exemplar].name : procedural_folder,
-                     config.methods[job.method].name);
+  return fmt::format("{}/{}", exemplar_name(config, job), config.methods[job.method].name);
 }
 
 std::string job_name(const Config& config, const Job& job) {
   return fmt::format("{}/seed{}", job_folder(config, job), job.seed);
+}
+
+bool job_matches(const std::string& pattern, const std::string& job) {
+  const auto match = [&](const std::string& text) {
+    return fnmatch(pattern.c_str(), text.c_str(), 0) == 0;
+  };
+  return pattern.empty() || match(job.substr(0, job.rfind('/'))) || match(job);
 }
 
 ImageFile load_exemplar(const ExemplarEntry& exemplar) {
@@ -89,7 +91,8 @@ Plan make_plan(const Config& config, const std::string& only) {
   Plan plan;
   for (const auto& exemplar : config.exemplars) plan.exemplars.push_back(look_at(exemplar));
   for (const Job& job : all_jobs(config)) {
-    PlannedJob planned{job, job_name(config, job), {}, {}, matches(only, config, job)};
+    PlannedJob planned{job, job_name(config, job), {}, {}, true};
+    planned.selected = job_matches(only, planned.name);
     // Seeds cost the same.
     const bool first_seed = plan.jobs.empty() || plan.jobs.back().job.method != job.method ||
                             plan.jobs.back().job.exemplar != job.exemplar;

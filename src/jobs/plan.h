@@ -19,10 +19,16 @@ struct Job {
   int seed = 0;
 };
 
+/// The exemplar's name, or that of the folder for methods that need none.
+std::string exemplar_name(const Config& config, const Job& job);
 /// "pebbles/quilting", "procedural/marble": the job's folder in the output folder.
 std::string job_folder(const Config& config, const Job& job);
 /// "pebbles/quilting/seed1": the job's name, and its files without their extension.
 std::string job_name(const Config& config, const Job& job);
+
+/// Whether "exemplar/method/seedN", or its "exemplar/method", matches a pattern of * and ?; an
+/// empty pattern matches all.
+bool job_matches(const std::string& pattern, const std::string& job);
 
 /// What is known of an exemplar before its jobs run.
 struct ExemplarFacts {
@@ -51,9 +57,9 @@ struct Plan {
   std::vector<PlannedJob> jobs;
 };
 
-/// Reads every exemplar once and estimates every job. Selected are the jobs whose "exemplar/method"
-/// or "exemplar/method/seedN" matches the pattern `only` (* and ?), or all when it is empty. Throws
-/// ConfigError for parameters that a method refuses, and when no job matches.
+/// Reads every exemplar once and estimates every job. Selected are the jobs that
+/// match `only` (see job_matches). Throws ConfigError for parameters that a method refuses, and
+/// when no job matches.
 Plan make_plan(const Config& config, const std::string& only = "");
 
 /// "" when the job fits into `available` bytes; otherwise one line that says what would fit.

@@ -28,6 +28,9 @@ Json record_to_json(const JobRecord& record) {
             {"settings", record.settings},
             {"metrics", record.metrics},
             {"files", record.files}};
+  if (!record.copy_map.empty()) json["copy_map"] = record.copy_map;
+  if (record.score_seconds > 0) json["score_seconds"] = record.score_seconds;
+  if (!record.score_error.empty()) json["score_error"] = record.score_error;
   if (record.loss) {
     json["iterations"] = record.loss->iterations;
     json["evaluations"] = record.loss->evaluations;
@@ -61,7 +64,10 @@ std::optional<JobRecord> read_record(const fs::path& file) {
                      json.at("settings"),
                      json.at("metrics"),
                      std::nullopt,
-                     json.at("files")};
+                     json.at("files"),
+                     json.value("copy_map", ""),
+                     json.value("score_seconds", 0.0),
+                     json.value("score_error", "")};
     if (json.contains("loss_last"))
       record.loss = LossSummary{json.at("iterations"), json.at("evaluations"),
                                 json.at("loss_first"), json.at("loss_last")};

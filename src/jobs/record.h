@@ -38,9 +38,12 @@ struct JobRecord {
   double seconds = 0;  // over all attempts
   double peak_memory_mb = 0;
   Json settings;
-  Json metrics = Json::object();
+  Json metrics = Json::object();  // by metrics()' names, null where undefined; empty: not scored
   std::optional<LossSummary> loss;
   std::vector<std::string> files;  // pictures, beside the JSON file; the texture is the first
+  std::string copy_map;  // picture of where pixels came from, relative to the run's folder; or ""
+  double score_seconds = 0;  // apart from `seconds`
+  std::string score_error;   // why a finished texture has no scores; "" where nothing went wrong
 };
 
 Json record_to_json(const JobRecord& record);

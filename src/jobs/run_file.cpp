@@ -1,39 +1,106 @@
 #include "jobs/run_file.h"
 
+#include <algorithm>
+
 #include "io/text_file.h"
+#include "jobs/job_files.h"
 #include "jobs/machine.h"
 
 namespace gramloom {
 
 namespace {
 
-Json job_state(const std::optional<JobRecord>& record) {
-  if (!record) return {{"status", "waiting"}};
-  Json state{{"status", to_word(record->status)}, {"seconds", record->seconds}};
-  if (!record->error.empty()) state["error"] = record->error;
+namespace fs = std::filesystem;
+
+Json state_to_json(const JobState& job) {
+  Json state{{"status", job.status()}};
+  if (!job.record) return state;
+  state["seconds"] = job.record->seconds;
+  if (!job.record->error.empty()) state["error"] = job.record->error;
   return state;
+}
+
+Json diversity_to_json(const std::vector<SeedDiversity>& diversity) {
+  Json list = Json::array();
+  for (const auto& of : diversity)
+    list.push_back({{"exemplar", of.exemplar},
+                    {"method", of.method},
+                    {"seeds", of.seeds},
+                    {"value", of.value}});
+  return list;
+}
+
+// Of the same exemplar and method: a SeedDiversity or a JobState.
+bool is_of(const SeedDiversity& diversity, const auto& other) {
+  return diversity.exemplar == other.exemplar && diversity.method == other.method;
+}
+
+JobState job_state(const Config& config, const PlannedJob& planned, const fs::path& output) {
+  const MethodEntry& method = config.methods[planned.job.method];
+  return {planned.name,     exemplar_name(config, planned.job),
+          method.name,      std::string(kind_of(method.method)),
+          planned.job.seed, read_record(job_files(output, planned.name).record)};
 }
 
 }  // namespace
 
-RunFile::RunFile(const Config& config, const Plan& plan, const std::filesystem::path& output)
-    : file_(output / "run.json") {
-  content_ = {{"versions", versions_to_json()}, {"machine", machine_to_json()},
-              {"config", config.file.string()}, {"config_text", config.text},
-              {"set", config.overrides},        {"settings", config_to_json(config)},
-              {"jobs", Json::object()}};
-  for (const auto& job : plan.jobs)
-    content_["jobs"][job.name] = job_state(read_record(output / (job.name + ".json")));
+std::vector<SeedDiversity> read_diversity(const fs::path& run_json) {
+  std::vector<SeedDiversity> list;
+  try {
+    const Json json = Json::parse(read_text(run_json));
+    for (const Json& of : json.at("diversity"))
+      list.push_back({of.at("exemplar"), of.at("method"), of.at("seeds"), of.at("value")});
+  } catch (const Error&) {
+    // No earlier run.
+  } catch (const Json::exception&) {
+    // Not one of ours, or older than this table.
+  }
+  return list;
+}
+
+RunFile::RunFile(const Config& config, const Plan& plan, const fs::path& output) : folder_(output) {
+  head_ = {{"versions", versions_to_json()}, {"machine", machine_to_json()},
+           {"config", config.file.string()}, {"config_text", config.text},
+           {"set", config.overrides},        {"settings", config_to_json(config)}};
+  for (const auto& planned : plan.jobs) jobs_.push_back(job_state(config, planned, output));
+  for (const auto& of : read_diversity(output / "run.json"))
+    if (std::any_of(jobs_.begin(), jobs_.end(), [&](const auto& job) { return is_of(of, job); }))
+      diversity_.push_back(of);
   write();
 }
 
-void RunFile::set(const std::string& job, const JobRecord& record) {
-  content_["jobs"][job] = job_state(record);
+void RunFile::set(const std::string& name, const JobRecord& record) {
+  for (JobState& job : jobs_)
+    if (job.name == name) job.record = record;
   write();
+}
+
+bool RunFile::knows(const SeedDiversity& diversity) const {
+  return std::any_of(diversity_.begin(), diversity_.end(), [&](const auto& of) {
+    return is_of(of, diversity) && of.seeds == diversity.seeds;
+  });
+}
+
+void RunFile::set(const SeedDiversity& diversity) {
+  std::erase_if(diversity_, [&](const auto& of) { return is_of(of, diversity); });
+  diversity_.push_back(diversity);
+  write();
+}
+
+void RunFile::forget_diversity(const std::string& exemplar, const std::string& method) {
+  const auto gone = std::erase_if(
+      diversity_, [&](const auto& of) { return of.exemplar == exemplar && of.method == method; });
+  if (gone > 0) write();
 }
 
 void RunFile::write() const {
-  write_text(file_, content_.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  Json content = head_;
+  content["jobs"] = Json::object();
+  for (const JobState& job : jobs_) content["jobs"][job.name] = state_to_json(job);
+  content["diversity"] = diversity_to_json(diversity_);
+  write_text(folder_ / "run.json",
+             content.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_text(folder_ / "scores.csv", score_sheet(jobs_, diversity_));
 }
 
 }  // namespace gramloom

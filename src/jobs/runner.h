@@ -23,14 +23,18 @@ struct RunSummary {
   int failed = 0;
   int interrupted = 0;
   int left = 0;
+  bool unscored = false;  // the user stopped the scoring of a texture
 };
 
 /// Does the jobs of a config one after another and leaves on disk, in `output`:
-///   run.json                         versions, machine, settings, every job's status
+///   run.json                         versions, machine, settings, every job's status, diversity
+///   scores.csv                       a line a job: time, memory, scores
 ///   <exemplar>/<method>/seed<N>.png  the texture (.exr, .tif), its maps as seed<N>_<map>.png
+///   <exemplar>/<method>/seed<N>.copy_map.png  where each pixel came from (metrics/scores.h)
 ///   <exemplar>/<method>/seed<N>.csv  the trace of an iterative method
-///   <exemplar>/<method>/seed<N>.json the record, written last
+///   <exemplar>/<method>/seed<N>.json the record, written last, and again with the scores
 ///   <exemplar>/<method>/seed<N>.checkpoint[.csv]  state of an unfinished job
+/// Textures made from an exemplar are scored against it, unless the config says scores = false.
 /// A job that fails says so in its record and does not stop the others. A finished result stays as
 /// it is until the one that replaces it is complete, or has failed.
 /// Throws ConfigError before any work when a method refuses its parameters, when no job matches, or

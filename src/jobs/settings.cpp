@@ -72,6 +72,7 @@ Json job_settings(const Config& config, const Plan& plan, const Job& job) {
 Json config_to_json(const Config& config) {
   const fs::path folder = config.file.parent_path();
   Json json = fields_to_json(config, folder);
+  json["baseline"] = fields_to_json(config.baseline, folder);
   json["exemplar"] = Json::array();
   for (const auto& exemplar : config.exemplars) {
     Json entry{{"name", exemplar.name}};

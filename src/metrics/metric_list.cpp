@@ -10,7 +10,8 @@ constexpr Metric list[]{
      "magnitudes of the bands of a steerable pyramid",
      "0 to 1; 1 is equal", true, "Zujovic, Pappas, Neuhoff 2013",
      "colours off the exemplar's principal axis; shapes and layouts of equal band statistics; most "
-     "textures lie above 0.8, so differences are small"},
+     "textures lie above 0.8, so differences are small",
+     1},
     {"portilla_simoncelli", "likeness",
      "distance of a texture's joint wavelet statistics: marginals, band energies, "
      "autocorrelations, "
@@ -68,14 +69,15 @@ constexpr Metric list[]{
     {"seam_x", "seams",
      "step across the seam of the left and right edges over the strongest 5 % of lines inside",
      "from 0; up to 1 is invisible", false, "",
-     "textures with strong straight lines along the seam hide it; shapes cut where colours agree"},
+     "textures with strong straight lines along the seam hide it; shapes cut where colours agree",
+     1},
     {"seam_y", "seams",
      "step across the seam of the upper and lower edges over the strongest 5 % of lines inside",
-     "from 0; up to 1 is invisible", false, "", "as seam_x"},
+     "from 0; up to 1 is invisible", false, "", "as seam_x", 1},
     {"diversity", "diversity",
      "1 less the mean strongest correlation at any shift of the results of two seeds",
      "0 to 1; 0 is the same picture", true, "",
-     "noise and failures are diverse too; regular textures correlate whatever the seed"},
+     "noise and failures are diverse too; regular textures correlate whatever the seed", 1},
 };
 
 }  // namespace

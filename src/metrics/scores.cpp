@@ -96,7 +96,12 @@ Scores score(const Image& exemplar, const Image& image, Tile tile, const Control
   return scores;
 }
 
-double diversity(std::span<const Image> seeds) {
+Cost estimate_scores(Size exemplar, int channels, Size image) {
+  const double pixels = 1.0 * exemplar.width * exemplar.height + 1.0 * image.width * image.height;
+  return {pixels * (300 + 30.0 * channels), 1e-5 * pixels};
+}
+
+double diversity(std::span<const Image> seeds, const Control& control) {
   if (seeds.size() < 2) throw Error("diversity needs the results of at least two seeds");
   const ColourFrame frame = colour_frame(seeds.front());
   std::vector<Image> pictures;
@@ -104,12 +109,16 @@ double diversity(std::span<const Image> seeds) {
     check_pair(seeds.front(), seed);
     pictures.push_back(components(seed, frame));
   }
+  const auto count = static_cast<std::int64_t>(pictures.size());
+  const std::int64_t pairs = count * (count - 1) / 2;
+  std::int64_t pair = 0;
   double sum = 0;
-  int pairs = 0;
   for (std::size_t i = 0; i < pictures.size(); ++i)
-    for (std::size_t j = i + 1; j < pictures.size(); ++j, ++pairs)
+    for (std::size_t j = i + 1; j < pictures.size(); ++j) {
+      control.step(pair++, pairs);
       sum += strongest_correlation(shift_correlation(pictures[i], pictures[j]));
-  return 1 - sum / pairs;
+    }
+  return 1 - sum / static_cast<double>(pairs);
 }
 
 }  // namespace gramloom

@@ -19,6 +19,7 @@ struct Metric {
   bool higher_is_better = false;
   std::string_view paper;
   std::string_view fooled_by;
+  double best = 0;  // a score at or beyond it cannot be improved
 };
 
 /// Every metric, in the order of tables. Likeness comes first: "stsim2", "portilla_simoncelli" and
@@ -43,9 +44,13 @@ struct Scores {
 /// finite, or different numbers of channels; Interrupted when `control` asks to stop.
 Scores score(const Image& exemplar, const Image& image, Tile tile, const Control& control = {});
 
+/// What score() is expected to need.
+Cost estimate_scores(Size exemplar, int channels, Size image);
+
 /// How different results of several seeds are: 1 − the mean, over all pairs, of the strongest
 /// correlation at any shift (copying.h's), between 0 (the same picture, however shifted) and 1.
-/// Throws Error for fewer than two images or different numbers of channels.
-double diversity(std::span<const Image> seeds);
+/// Throws Error for fewer than two images or different numbers of channels; Interrupted when
+/// `control` asks to stop.
+double diversity(std::span<const Image> seeds, const Control& control = {});
 
 }  // namespace gramloom

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "core/progress.h"
+#include "io/image_file.h"
+#include "jobs/plan.h"
+#include "jobs/record.h"
+#include "jobs/runner.h"
+
+namespace gramloom {
+
+/// What all jobs of a run share. The exemplar of the last job is kept for the next one.
+struct Run {
+  const Config& config;
+  const RunOptions& options;
+  const Plan& plan;
+  ProgressBar& bar;
+  std::optional<std::size_t> loaded;
+  ImageFile exemplar;
+
+  bool stopped() const { return options.stop && options.stop(); }
+};
+
+/// The exemplar of a job, empty where it has none. Throws Error.
+const ImageFile& exemplar_of(Run& run, const Job& job);
+
+/// Shows the progress of work that leaves nothing to keep when the user stops it.
+Control shown_work(Run& run);
+
+/// Makes the job's texture. The record is returned when all files are on disk; what goes wrong is
+/// in it. A finished result stays as it is until the one that replaces it is complete, or has
+/// failed.
+JobRecord run_job(Run& run, const PlannedJob& planned);
+
+}  // namespace gramloom
