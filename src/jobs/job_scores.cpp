@@ -11,13 +11,6 @@ namespace gramloom {
 
 namespace {
 
-void refuse_if_too_large(const Image& exemplar, Size size) {
-  const double bytes = estimate_scores(exemplar.size(), exemplar.channels, size).bytes;
-  if (const double available = available_memory(); bytes > available)
-    throw Error("scoring needs about {:.1f} GB of memory, {:.1f} GB are free", bytes / 1e9,
-                available / 1e9);
-}
-
 Json values_to_json(const Scores& scores) {
   Json json = Json::object();
   for (const auto& [name, value] : scores.values)
@@ -27,10 +20,11 @@ Json values_to_json(const Scores& scores) {
 
 // Puts the scores into the record and their picture on disk; throws what goes wrong.
 void score_texture(Run& run, const PlannedJob& planned, const JobFiles& files, JobRecord& record) {
+  const std::string refusal = scoring_refusal(planned, available_memory());
+  if (!refusal.empty()) throw Error("{}", refusal);
   // The texture as others see it: with its file's rounding.
   const Image texture = read_image(files.folder / record.files.front()).image;
   const Image& exemplar = exemplar_of(run, planned.job).image;
-  refuse_if_too_large(exemplar, texture.size());
   const Scores scores = score(exemplar, texture, run.config.tile, shown_work(run));
   write_image(files.copy_map, scores.copy_map, {});
   record.copy_map = files.copy_map.lexically_relative(run.options.output).generic_string();

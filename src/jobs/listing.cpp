@@ -38,6 +38,16 @@ std::string list_textures() {
   return text;
 }
 
+// Why a job cannot be done, or cannot be scored; "" when all is well.
+std::string problem_of(const Config& config, const Plan& plan, const PlannedJob& planned,
+                       double available) {
+  const std::string problem =
+      !planned.error.empty() ? planned.error : memory_refusal(config, plan, planned, available);
+  if (!problem.empty()) return "cannot run: " + problem;
+  const std::string unscored = scoring_refusal(planned, available);
+  return unscored.empty() ? "" : "cannot be scored: " + unscored;
+}
+
 }  // namespace
 
 std::string list_methods() {
@@ -82,12 +92,11 @@ std::string job_table(const Config& config, const Plan& plan) {
   for (const auto& planned : plan.jobs) {
     if (!planned.selected) continue;
     ++count;
-    seconds += planned.cost.seconds;
-    const std::string problem =
-        !planned.error.empty() ? planned.error : memory_refusal(config, plan, planned, available);
-    rows.push_back({planned.name, fmt::format("{:.2f} GB", planned.cost.bytes / 1e9),
-                    clock_text(planned.cost.seconds),
-                    problem.empty() ? "" : "cannot run: " + problem});
+    const double job_seconds = planned.cost.seconds + planned.scoring.seconds;
+    const double bytes = std::max(planned.cost.bytes, planned.scoring.bytes);
+    seconds += job_seconds;
+    rows.push_back({planned.name, fmt::format("{:.2f} GB", bytes / 1e9), clock_text(job_seconds),
+                    problem_of(config, plan, planned, available)});
   }
   return text_table(rows, "") +
          fmt::format("{} {}, about {}\n", count, count == 1 ? "job" : "jobs", clock_text(seconds));

@@ -7,6 +7,7 @@
 
 #include "io/resize.h"
 #include "jobs/settings.h"
+#include "metrics/scores.h"
 
 namespace gramloom {
 
@@ -40,6 +41,8 @@ void estimate_job(const Config& config, const Plan& plan, PlannedJob& planned) {
   try {
     planned.cost =
         estimate_method(method.method, facts.size, facts.channels, {config.size, config.tile});
+    if (config.scores && planned.job.exemplar)
+      planned.scoring = estimate_scores(facts.size, facts.channels, config.size);
   } catch (const ConfigError& error) {
     throw ConfigError("{}: method '{}': {}", method.place, method.name, error.what());
   } catch (const Error& error) {
@@ -91,7 +94,7 @@ Plan make_plan(const Config& config, const std::string& only) {
   Plan plan;
   for (const auto& exemplar : config.exemplars) plan.exemplars.push_back(look_at(exemplar));
   for (const Job& job : all_jobs(config)) {
-    PlannedJob planned{job, job_name(config, job), {}, {}, true};
+    PlannedJob planned{job, job_name(config, job), {}, {}, {}, true};
     planned.selected = job_matches(only, planned.name);
     // Seeds cost the same.
     const bool first_seed = plan.jobs.empty() || plan.jobs.back().job.method != job.method ||
@@ -100,6 +103,7 @@ Plan make_plan(const Config& config, const std::string& only) {
       estimate_job(config, plan, planned);
     } else {
       planned.cost = plan.jobs.back().cost;
+      planned.scoring = plan.jobs.back().scoring;
       planned.error = plan.jobs.back().error;
     }
     plan.jobs.push_back(std::move(planned));
@@ -109,6 +113,12 @@ Plan make_plan(const Config& config, const std::string& only) {
     throw ConfigError("--only {}: no job of {} matches; they are called like {}", only,
                       config.file.string(), plan.jobs.front().name);
   return plan;
+}
+
+std::string scoring_refusal(const PlannedJob& job, double available) {
+  if (job.scoring.bytes <= available) return "";
+  return fmt::format("scoring needs about {:.1f} GB of memory, {:.1f} GB are free",
+                     job.scoring.bytes / 1e9, available / 1e9);
 }
 
 std::string memory_refusal(const Config& config, const Plan& plan, const PlannedJob& planned,

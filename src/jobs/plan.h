@@ -46,7 +46,8 @@ ImageFile load_exemplar(const ExemplarEntry& exemplar);
 struct PlannedJob {
   Job job;
   std::string name;
-  Cost cost;
+  Cost cost;             // of making the texture
+  Cost scoring;          // of scoring it afterwards; 0: it will not be
   std::string error;     // why it cannot run; empty when it can
   bool selected = true;  // false: --only leaves it out
 };
@@ -61,6 +62,9 @@ struct Plan {
 /// match `only` (see job_matches). Throws ConfigError for parameters that a method refuses, and
 /// when no job matches.
 Plan make_plan(const Config& config, const std::string& only = "");
+
+/// "" when a finished texture can be scored in `available` bytes; otherwise why not.
+std::string scoring_refusal(const PlannedJob& job, double available);
 
 /// "" when the job fits into `available` bytes; otherwise one line that says what would fit.
 std::string memory_refusal(const Config& config, const Plan& plan, const PlannedJob& job,

@@ -60,10 +60,10 @@ void warn_of_slow_blas(const Run& run) {
 std::string outcome(const PlannedJob& planned, const JobRecord& record, bool before) {
   if (record.status == Status::failed)
     return fmt::format("{}: failed: {}", planned.name, record.error);
-  if (before) return fmt::format("{}: finished before", planned.name);
-  std::string text =
-      fmt::format("{}: {} in {:.1f} s", planned.name, to_word(record.status), record.seconds);
-  if (record.loss) text += fmt::format(", loss {:.3e}", record.loss->last);
+  std::string text = planned.name + ": ";
+  text += before ? "finished before"
+                 : fmt::format("{} in {:.1f} s", to_word(record.status), record.seconds);
+  if (!before && record.loss) text += fmt::format(", loss {:.3e}", record.loss->last);
   return text;
 }
 
@@ -85,15 +85,6 @@ void count_outcome(RunSummary& summary, Status status, bool before) {
   }
 }
 
-// Scores a finished texture that has no scores.
-void add_scores(Run& run, const PlannedJob& planned, JobRecord& record, RunSummary& summary) {
-  if (!lacks_scores(run, planned, record)) return;
-  if (run.stopped() || !score_job(run, planned, record))
-    summary.unscored = true;
-  else if (!record.score_error.empty())
-    run.bar.complaint(fmt::format("{}: not scored: {}", planned.name, record.score_error));
-}
-
 // Writing the run's own files may fail without harm to the jobs.
 void or_complain(const Run& run, const std::function<void()>& write) {
   try {
@@ -101,6 +92,18 @@ void or_complain(const Run& run, const std::function<void()>& write) {
   } catch (const Error& error) {
     run.bar.complaint(error.what());
   }
+}
+
+void add_scores(Run& run, const PlannedJob& planned, JobRecord& record, RunFile& run_file,
+                RunSummary& summary) {
+  run.bar.start(planned.name + ", scores", 1, 1);
+  if (run.stopped() || !score_job(run, planned, record)) {
+    summary.unscored = true;
+    return;
+  }
+  if (!record.score_error.empty())
+    run.bar.complaint(fmt::format("{}: not scored: {}", planned.name, record.score_error));
+  or_complain(run, [&] { run_file.set(planned.name, record); });
 }
 
 // Does a job, or finds it finished; run.json follows.
@@ -116,10 +119,10 @@ void do_job(Run& run, const PlannedJob& planned, RunFile& run_file, RunSummary& 
     record = run_job(run, planned);
   }
   count_outcome(summary, record->status, before);
-  add_scores(run, planned, *record, summary);
   const std::string text = outcome(planned, *record, before);
   record->status == Status::failed ? run.bar.complaint(text) : run.bar.message(text);
   or_complain(run, [&] { run_file.set(planned.name, *record); });
+  if (lacks_scores(run, planned, *record)) add_scores(run, planned, *record, run_file, summary);
 }
 
 // The jobs of each exemplar and method, as they follow each other in the plan.
@@ -138,7 +141,9 @@ std::vector<JobGroup> groups_of(const Plan& plan) {
 // How unlike the finished textures of a group are, unless that is known.
 void add_diversity(Run& run, const JobGroup& group, RunFile& run_file, RunSummary& summary) {
   const Job& first = group.front()->job;
-  if (!run.config.scores || !first.exemplar) return;
+  const bool selected = std::any_of(group.begin(), group.end(),
+                                    [](const auto* planned) { return planned->selected; });
+  if (!run.config.scores || !first.exemplar || !selected) return;
   const JobGroup finished = finished_jobs(run, group);
   SeedDiversity diversity{
       exemplar_name(run.config, first), run.config.methods[first.method].name, {}, 0};

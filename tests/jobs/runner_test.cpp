@@ -1,59 +1,13 @@
 #include "jobs/runner.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include "io/text_file.h"
-#include "jobs/record.h"
+#include "jobs/run_folder.h"
 
 namespace gramloom {
 namespace {
 
 namespace fs = std::filesystem;
-
-const std::string two_textures =
-    "size = [24, 16]\n"
-    "[[method]]\nname = 'a'\nkind = 'procedural'\ntexture = 'noise'\n"
-    "[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"
-    "[[method]]\nname = 'b'\nkind = 'quilting'\npatch_size = 8\n";
-
-class Runner : public testing::Test {
- protected:
-  Runner() : folder_(fs::temp_directory_path() / fmt::format("gramloom_runner_{}", getpid())) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    write_exemplar(1);
-  }
-  ~Runner() override { fs::remove_all(folder_); }
-
-  void write_exemplar(std::uint64_t seed, Encoding encoding = {}) const {
-    Image image(32, 32, 3);
-    Random random(seed);
-    for (float& value : image.pixels) value = random.uniform();
-    write_image(folder_ / "e.png", image, encoding);
-  }
-
-  RunSummary run_text(const std::string& text, RunOptions options = {},
-                      const std::vector<std::string>& set = {}) const {
-    options.output = folder_ / "out";
-    ProgressBar bar(ProgressStyle::quiet);
-    return run(parse_config(text, folder_ / "c.toml", set), options, bar);
-  }
-  RunSummary resume(const std::string& text, const std::vector<std::string>& set = {}) const {
-    RunOptions options;
-    options.resume = true;
-    return run_text(text, options, set);
-  }
-
-  fs::path out(const std::string& name) const { return folder_ / "out" / name; }
-  JobRecord record(const std::string& job) const {
-    const auto found = read_record(out(job + ".json"));
-    EXPECT_TRUE(found) << job;
-    return found.value_or(JobRecord{});
-  }
-
-  fs::path folder_;
-};
 
 TEST_F(Runner, LeavesPictureRecordAndRunFile) {
   EXPECT_EQ(run_text(two_textures).done, 2);
