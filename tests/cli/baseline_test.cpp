@@ -1,0 +1,87 @@
+// gramloom run --baseline from outside, on the golden baseline and on broken ones.
+#include "cli/workspace.h"
+
+namespace gramloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path golden = fs::path(GRAMLOOM_SOURCE_DIR) / "tests/golden";
+
+class BaselineRun : public Workspace {
+ protected:
+  void damage_picture(const std::string& name) const {
+    ImageFile file = read_image(folder_ / name);
+    for (float& value : file.image.pixels) value = 1 - value;
+    write_image(folder_ / name, file.image, file.encoding, file.metadata);
+  }
+  void damage_score(const std::string& job, const std::string& metric, double value) const {
+    JobRecord record = *read_record(folder_ / job);
+    record.metrics[metric] = value;
+    write_record(folder_ / job, record);
+  }
+  Outcome compare(const std::string& baseline) const {
+    return run({"run", "c.toml", "--quiet", "--output", "now", "--baseline", baseline});
+  }
+};
+
+TEST_F(BaselineRun, TheGoldenBaselineHolds) {
+  const Outcome outcome = run({"run", (golden / "golden.toml").string(), "--quiet", "--output",
+                               "now", "--baseline", (golden / "baseline").string()});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output << outcome.errors;
+}
+
+TEST_F(BaselineRun, DamageToPicturesAndScoresIsFound) {
+  ASSERT_EQ(run({"run", "c.toml", "--quiet", "--output", "before"}).exit_code, 0);
+  const Outcome same = compare("before");
+  EXPECT_EQ(same.exit_code, 0) << same.output;
+  EXPECT_EQ(same.output, "");
+
+  damage_picture("before/e/q/seed1.png");
+  damage_score("before/e/q/seed2.json", "spectrum_db", 0.01);
+  const Outcome outcome = compare("before");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.output.find("worse  e/q/seed1  seed1.png"), std::string::npos)
+      << outcome.output;
+  EXPECT_NE(outcome.output.find("worse  e/q/seed2  spectrum_db  0.01"), std::string::npos)
+      << outcome.output;
+  EXPECT_NE(outcome.output.find("4 jobs against before: 2 worse, 2 changes in all\n"),
+            std::string::npos)
+      << outcome.output;
+  const Json json = Json::parse(file("now/baseline.json"));
+  EXPECT_EQ(json["worse"], 2);
+  EXPECT_EQ(json["changes"][0]["job"], "e/q/seed1");
+
+  const Outcome other =
+      run({"run", "c.toml", "--quiet", "--output", "now", "--baseline", "before", "--only", "*/n"});
+  EXPECT_EQ(other.exit_code, 0) << other.output;
+}
+
+TEST_F(BaselineRun, ABaselineThatIsMissingOrBrokenIsFoundBeforeTheRun) {
+  ASSERT_EQ(run({"run", "c.toml", "--quiet", "--output", "whole"}).exit_code, 0);
+  const auto broken = [&](const std::string& name, const std::string& text) {
+    fs::remove_all(folder_ / "broken");
+    fs::copy(folder_ / "whole", folder_ / "broken", fs::copy_options::recursive);
+    text.empty() ? void(fs::remove(folder_ / "broken" / name))
+                 : write_text(folder_ / "broken" / name, text);
+    return compare("broken");
+  };
+  for (const Outcome& outcome :
+       {compare("nowhere"), compare("e.png"), compare("now"), broken("run.json", ""),
+        broken("run.json", "{\"jobs\": 3}"), broken("run.json", "no JSON"),
+        broken("e/q/seed1.json", ""), broken("e/q/seed2.json", "{}"), broken("e/q/seed1.png", ""),
+        broken("e/q/seed1.png", "no picture")}) {
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
+    EXPECT_TRUE(outcome.errors.starts_with("--baseline ")) << outcome.errors;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "now"));
+
+  const Outcome itself =
+      run({"run", "c.toml", "--output", "whole", "--baseline", "whole/../whole"});
+  EXPECT_EQ(itself.exit_code, 2);
+  EXPECT_NE(itself.errors.find("write over it"), std::string::npos) << itself.errors;
+}
+
+}  // namespace
+}  // namespace gramloom
