@@ -119,9 +119,62 @@ TEST_F(Interruption, KilledAtAnyMomentAndResumedNothingIsLost) {
   for (const auto& [picture, time] : whole)
     EXPECT_EQ(read_text(picture),
               read_text(folder_ / "killed" / fs::relative(picture, folder_ / "whole")));
+  for (int seed = 1; seed <= 10; ++seed) {
+    const auto scored = record(fmt::format("e/q/seed{}", seed), "killed");
+    EXPECT_FALSE(scored->metrics.empty());
+    EXPECT_EQ(scored->metrics, record(fmt::format("e/q/seed{}", seed), "whole")->metrics);
+    EXPECT_EQ(file("killed/" + scored->copy_map), file("whole/" + scored->copy_map));
+  }
+  const Json diversity = Json::parse(file("whole/run.json"))["diversity"];
+  EXPECT_EQ(diversity.size(), 1u);
+  EXPECT_EQ(Json::parse(file("killed/run.json"))["diversity"], diversity);
   for (const auto& entry : fs::recursive_directory_iterator(folder_ / "killed"))
     EXPECT_TRUE(entry.is_directory() || !entry.path().filename().string().ends_with(".tmp"))
         << entry.path() << " was left";
+}
+
+TEST_F(Interruption, StoppedWhileItScoresTheTextureIsKeptAndOnlyScoredLater) {
+  write_text(folder_ / "large.toml",
+             "size = [1000, 1000]\n"
+             "[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"
+             "[[method]]\nname = 'p'\nkind = 'phase'\n");
+  for (const int signal : {SIGINT, SIGKILL}) {
+    fs::remove_all(folder_ / "out");
+    Process process(folder_, {"run", "large.toml"});
+    for (int i = 0; i < 3000; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      const auto made = record("e/p/seed1", "out/large");
+      if (made && made->status == Status::done) break;
+    }
+    process.signal(signal);
+    const Outcome stopped = process.wait();
+    EXPECT_EQ(stopped.exit_code, signal == SIGINT ? 130 : 128 + SIGKILL);
+    if (signal == SIGINT) {
+      EXPECT_NE(stopped.errors.find("not all textures are scored"), std::string::npos)
+          << stopped.errors;
+    }
+    EXPECT_EQ(record("e/p/seed1", "out/large")->status, Status::done);
+    EXPECT_TRUE(record("e/p/seed1", "out/large")->metrics.empty());
+    const auto time = fs::last_write_time(folder_ / "out/large/e/p/seed1.png");
+
+    EXPECT_EQ(run({"run", "large.toml", "--resume"}).exit_code, 0);
+    EXPECT_FALSE(record("e/p/seed1", "out/large")->metrics.empty());
+    EXPECT_EQ(fs::last_write_time(folder_ / "out/large/e/p/seed1.png"), time);
+    EXPECT_NE(file("out/large/scores.csv").find("e,p,phase,1,done,"), std::string::npos);
+  }
+}
+
+TEST_F(Interruption, ASecondRunIntoTheSameFolderIsRefused) {
+  write_long_config();
+  Process process(folder_, {"run", "long.toml", "--output", "out/c"});
+  wait_for_file("out/c/e/long/seed1.json");
+  const Outcome second = run({"run", "c.toml"});
+  EXPECT_EQ(second.exit_code, 2);
+  EXPECT_EQ(second.errors, "--output out/c: another run is writing there\n");
+  EXPECT_EQ(run({"run", "c.toml", "--output", "elsewhere"}).exit_code, 0);
+  process.signal(SIGKILL);
+  process.wait();
+  EXPECT_EQ(run({"run", "c.toml"}).exit_code, 0) << "the lock ends with its process";
 }
 
 TEST_F(Interruption, ADiskThatIsFullFailsTheJobInOneLine) {
