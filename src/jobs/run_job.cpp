@@ -1,5 +1,6 @@
 #include "jobs/run_job.h"
 
+#include "core/hash.h"
 #include "io/text_file.h"
 #include "jobs/job_files.h"
 #include "jobs/memory.h"

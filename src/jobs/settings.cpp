@@ -1,5 +1,6 @@
 #include "jobs/settings.h"
 
+#include "core/hash.h"
 #include "io/field_values.h"
 #include "io/text_file.h"
 
@@ -86,15 +87,6 @@ Json config_to_json(const Config& config) {
     json["method"].push_back(entry);
   }
   return json;
-}
-
-std::string hash_of(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char byte : bytes) {
-    hash ^= static_cast<unsigned char>(byte);
-    hash *= 0x100000001b3u;
-  }
-  return fmt::format("{:016x}", hash);
 }
 
 std::string file_hash(const fs::path& path) { return hash_of(read_text(path)); }

@@ -20,9 +20,7 @@ Json job_settings(const Config& config, const Plan& plan, const Job& job);
 /// The whole config with every default, for run.json.
 Json config_to_json(const Config& config);
 
-/// FNV-1a, 64 bits, in hexadecimal: tells texts and files apart, no more.
-std::string hash_of(std::string_view bytes);
-/// Throws Error when the file cannot be read.
+/// The hash of a file's bytes (core/hash.h). Throws Error when the file cannot be read.
 std::string file_hash(const std::filesystem::path& path);
 
 }  // namespace gramloom

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/hash.h"
 #include "io/field_values.h"
 #include "io/text_file.h"
 
@@ -53,27 +54,9 @@ Network make_network(const NeuralParams& params, const NetworkDescription& descr
   return {description, shapes, load_filters(description, shapes, params.weights), params.pooling};
 }
 
-namespace {
-
-// FNV-1a, 64 bits.
-class Hash {
- public:
-  void add(const void* data, std::size_t size) {
-    for (std::size_t i = 0; i < size; ++i)
-      value_ = (value_ ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001B3u;
-  }
-  void add(const std::string& text) { add(text.data(), text.size()); }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xCBF29CE484222325u;
-};
-
-}  // namespace
-
 std::string fingerprint(const NeuralParams& params, const Image& exemplar, const Target& target,
                         Random random) {
-  Hash hash;
+  Fnv1a hash;
   for_each_field<NeuralParams>([&](const auto& field) {
     hash.add(fmt::format("{}={};", field.name, value_to_text(params.*field.member)));
   });
@@ -82,7 +65,7 @@ std::string fingerprint(const NeuralParams& params, const Image& exemplar, const
                        exemplar.channels));
   hash.add(read_text(find_network(params.network)));
   hash.add(exemplar.pixels.data(), exemplar.pixels.size() * sizeof(float));
-  return fmt::format("{:016x}", hash.value());
+  return hash.text();
 }
 
 }  // namespace gramloom::neural

@@ -33,14 +33,14 @@ TEST_P(ParallelFor, SplitsTheSameWayForAnyThreads) {
     const std::lock_guard lock(mutex);
     ranges.emplace(begin, end);
   });
-  EXPECT_EQ(ranges,
-            (std::set<std::pair<std::int64_t, std::int64_t>>{{0, 10}, {10, 20}, {20, 25}}));
+  EXPECT_EQ(ranges, (std::set<std::pair<std::int64_t, std::int64_t>>{{0, 10}, {10, 20}, {20, 25}}));
 }
 
 TEST_P(ParallelFor, ThrowsWhatABodyThrew) {
-  EXPECT_THROW(parallel_for(100, 1, [](std::int64_t i, std::int64_t) {
-                 if (i == 50) throw Error("fifty");
-               }),
+  EXPECT_THROW(parallel_for(100, 1,
+                            [](std::int64_t i, std::int64_t) {
+                              if (i == 50) throw Error("fifty");
+                            }),
                Error);
 }
 

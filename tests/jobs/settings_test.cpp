@@ -69,12 +69,5 @@ TEST(Settings, PathsAreRelativeToTheConfig) {
   EXPECT_EQ(value_to_json(fs::path(), fs::path("configs")), "");
 }
 
-TEST(Hash, IsFnv1a) {
-  // Published test vectors of FNV-1a, 64 bits.
-  EXPECT_EQ(hash_of(""), "cbf29ce484222325");
-  EXPECT_EQ(hash_of("a"), "af63dc4c8601ec8c");
-  EXPECT_EQ(hash_of("foobar"), "85944171f73967e8");
-}
-
 }  // namespace
 }  // namespace gramloom
