@@ -8,6 +8,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <thread>
 
 #include "core/error.h"
 #include "core/threads.h"
@@ -175,6 +176,15 @@ void add_config_options(CLI::App& command, Arguments& arguments) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+// Many more threads than cores bring the work to a halt; some more must be allowed, as results of
+// neural methods depend on the number.
+void add_threads(CLI::App& command, Arguments& arguments) {
+  const int most = 8 * static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  command.add_option("--threads", arguments.threads, "threads; 0: every core")
+      ->type_name("N")
+      ->check(CLI::Range(0, most));
+}
+
 void add_run(CLI::App& app, Arguments& arguments) {
   CLI::App* run = app.add_subcommand(
       "run",
@@ -183,9 +193,7 @@ void add_run(CLI::App& app, Arguments& arguments) {
   add_config_options(*run, arguments);
   run->add_option("--output", arguments.output, "folder of the results (out/<config's name>)")
       ->type_name("DIR");
-  run->add_option("--threads", arguments.threads, "threads; 0: every core")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024));
+  add_threads(*run, arguments);
   run->add_flag("--resume", arguments.resume, "keep finished jobs and go on with unfinished ones");
   run->add_option("--baseline", arguments.baseline,
                   "folder of an earlier run: print what differs, by the limits of the config's "
@@ -205,9 +213,7 @@ void add_score(CLI::App& app, Arguments& arguments) {
                   "the exemplar tiled, its halves");
   score->add_option("--tile", arguments.tile, "axes on which the pictures tile, for the seams")
       ->check(CLI::IsMember({"none", "x", "y", "both"}));
-  score->add_option("--threads", arguments.threads, "threads; 0: every core")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024));
+  add_threads(*score, arguments);
 }
 
 ExitCode dispatch(int argc, char** argv) {

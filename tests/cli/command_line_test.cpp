@@ -30,6 +30,7 @@ TEST_F(CommandLine, BadUsageIsOneLineAndExitCode2) {
       {"run", "c.toml", "--frobnicate"},
       {"run", "c.toml", "--threads", "-1"},
       {"run", "c.toml", "--threads", "many"},
+      {"run", "c.toml", "--threads", "100000"},
       {"run", "c.toml", "--threads", "99999999999"},
       {"run", "c.toml", "--only"},
       {"run", "c.toml", "--only", "nothing/*"},
