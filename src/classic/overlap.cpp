@@ -123,10 +123,14 @@ OverlapErrors::OverlapErrors(const Image& exemplar, Size patch)
   columns_ = spectra_of_rows(transposed_image(values), cv::getOptimalDFTSize(exemplar.height));
 }
 
-float OverlapErrors::noise(const Sides& sides) const {
+float OverlapErrors::scale(const Sides& sides) const {
   const int inside =
       (patch_.width - sides.left - sides.right) * (patch_.height - sides.top - sides.bottom);
-  return static_cast<float>(1e-5 * variance_ * (patch_.width * patch_.height - inside));
+  return static_cast<float>(variance_ * (patch_.width * patch_.height - inside));
+}
+
+float OverlapErrors::noise(const Sides& sides) const {
+  return 1e-5f * scale(sides);
 }
 
 void OverlapErrors::compute(const Image& patch, const Sides& sides,

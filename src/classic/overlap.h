@@ -36,6 +36,8 @@ class OverlapErrors {
 
   /// Number of patch positions in each direction: exemplar − patch + 1.
   Size positions() const { return positions_; }
+  /// The exemplar's variance for each filled pixel: half the error of unrelated patches.
+  float scale(const Sides& sides) const;
   /// What rounding may add to an error: 1e-5 of the exemplar's variance for each filled pixel.
   float noise(const Sides& sides) const;
 

@@ -2,19 +2,12 @@
 
 #include <vector>
 
+#include "classic/patch_origin.h"
 #include "core/image.h"
 
 namespace gramloom {
 
 struct PatchField;
-
-/// The first pixel of a patch in the exemplar.
-struct PatchOrigin {
-  int x = 0;
-  int y = 0;
-
-  friend bool operator==(const PatchOrigin&, const PatchOrigin&) = default;
-};
 
 /// What it costs a patch at (x, y) to come from an origin, besides its distance.
 struct PatchPenalty {

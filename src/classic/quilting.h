@@ -14,6 +14,13 @@ namespace gramloom {
 /// patches of the exemplar are laid on a grid so that they overlap; each is drawn from those whose
 /// overlap error is within `tolerance` of the best one, and cut to its neighbours along the path of
 /// least error. Departures from the paper:
+/// - of several patches drawn so, the one with the best cut is laid: the overlap error alone counts
+///   a joint that ends in the middle of a brick for little;
+/// - overlaps are wide, 0.45 of a patch instead of 1/6: a narrow one inside a brick cannot tell how
+///   high that brick is to become;
+/// - errors grow with how often a piece has been laid, so that it does not recur side by side;
+/// - a quilt at a quarter of the resolution, the best of several, guides the choice: laid one by
+///   one, rows drift and would not meet where the texture tiles;
 /// - where two sides meet, each has a cut of its own and the patch keeps what lies inside both;
 /// - on an axis that tiles, the last patch is also matched and cut to the first one's other side;
 /// - patches are laid in the order column + 2 · row instead of row by row, so that several can be
@@ -24,9 +31,12 @@ struct QuiltingParams {
   static constexpr std::string_view summary =
       "overlapping patches cut along the path of least error (Efros & Freeman 2001)";
 
-  int patch_size = 40;
-  double overlap = 1.0 / 6;
+  int patch_size = 0;
+  double overlap = 0.45;
   double tolerance = 0.1;
+  int candidates = 4;
+  double variety = 0.02;
+  double guidance = 0.05;
   int feather = 0;
 
   static constexpr auto fields() {
@@ -34,9 +44,10 @@ struct QuiltingParams {
     return std::tuple{
         Field{"patch_size",
               &P::patch_size,
-              "side of a patch; at most three quarters of the exemplar's side are used",
+              "side of a patch; at most three quarters of the exemplar's side are used; 0: three "
+              "eighths of its shorter side",
               "pixels",
-              {1, 1024}},
+              {0, 1024}},
         Field{"overlap",
               &P::overlap,
               "part of a patch's side that overlaps its neighbour",
@@ -45,6 +56,22 @@ struct QuiltingParams {
         Field{"tolerance",
               &P::tolerance,
               "patches are drawn from those with an error up to (1 + tolerance) times the least",
+              "",
+              {0, 100}},
+        Field{"candidates",
+              &P::candidates,
+              "patches that are drawn for each place, of which the one with the best cut is laid",
+              "",
+              {1, 1000}},
+        Field{"variety",
+              &P::variety,
+              "how strongly pieces of the exemplar that have been laid already are avoided",
+              "",
+              {0, 100}},
+        Field{"guidance",
+              &P::guidance,
+              "how strongly patches keep to the best of several quilts at a quarter of the "
+              "resolution",
               "",
               {0, 100}},
         Field{"feather",

@@ -55,9 +55,9 @@ std::vector<int> minimum_cut(const std::vector<float>& errors, int length, int w
   return path;
 }
 
-std::vector<unsigned char> cut_mask(const Image& old, const Image& fresh, const Sides& sides) {
+Cut cut(const Image& old, const Image& fresh, const Sides& sides) {
   const Size patch = old.size();
-  std::vector<unsigned char> mask(to_size(patch.width * patch.height), 1);
+  Cut result{std::vector<unsigned char>(to_size(patch.width * patch.height), 1)};
   for (const Side side : {Side{true, false, sides.left}, Side{true, true, sides.right},
                           Side{false, false, sides.top}, Side{false, true, sides.bottom}}) {
     if (side.depth == 0) continue;
@@ -67,12 +67,15 @@ std::vector<unsigned char> cut_mask(const Image& old, const Image& fresh, const 
       for (int in = 0; in < side.depth; ++in)
         errors[to_size(along * side.depth + in)] =
             squared_difference(old, fresh, side.x(along, in, patch), side.y(along, in, patch));
-    const std::vector<int> cut = minimum_cut(errors, length, side.depth);
-    for (int along = 0; along < length; ++along)
-      for (int in = 0; in < cut[to_size(along)]; ++in)
-        mask[to_size(side.y(along, in, patch) * patch.width + side.x(along, in, patch))] = 0;
+    const std::vector<int> path = minimum_cut(errors, length, side.depth);
+    for (int along = 0; along < length; ++along) {
+      const int depth = path[to_size(along)];
+      result.error += double{errors[to_size(along * side.depth + depth)]};
+      for (int in = 0; in < depth; ++in)
+        result.mask[to_size(side.y(along, in, patch) * patch.width + side.x(along, in, patch))] = 0;
+    }
   }
-  return mask;
+  return result;
 }
 
 std::vector<float> feathered(const std::vector<unsigned char>& mask, Size patch, const Sides& sides,

@@ -13,7 +13,7 @@
 namespace gramloom {
 
 // TOML tables become structs through the structs' field lists. Every mistake is a ConfigError that
-// begins with its place: "configs/a.toml:12:3: " or "--set patch_size=0: ".
+// begins with its place: "configs/a.toml:12:3: " or "--set patch_size=-1: ".
 
 /// `text` as TOML; `name` is what errors call it. Throws ConfigError.
 toml::table parse_toml(std::string_view text, const std::string& name);

@@ -29,7 +29,7 @@ void run(benchmark::State& state, const Params& params) {
                                  .image.pixels.data());
 }
 
-void quilting(benchmark::State& state) { run(state, QuiltingParams{.patch_size = 32}); }
+void quilting(benchmark::State& state) { run(state, QuiltingParams{}); }
 void patchmatch(benchmark::State& state) { run(state, PatchmatchParams{}); }
 
 BENCHMARK(quilting)

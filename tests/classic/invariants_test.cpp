@@ -6,9 +6,11 @@
 
 #include "classic/histogram.h"
 #include "classic/markov.h"
+#include "classic/patchmatch.h"
 #include "classic/phase.h"
 #include "classic/pixel.h"
 #include "classic/pyramid.h"
+#include "classic/quilting.h"
 #include "core/error.h"
 #include "core/threads.h"
 
@@ -85,7 +87,7 @@ struct CausalMarkov : MarkovParams {
 
 // The one list: a method added here is held to all of it.
 using Methods = testing::Types<HistogramParams, MarkovParams, CausalMarkov, PhaseParams,
-                               PyramidParams, PixelParams>;
+                               PyramidParams, PixelParams, QuiltingParams, PatchmatchParams>;
 
 struct KindNames {
   template <class Params>

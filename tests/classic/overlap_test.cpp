@@ -78,14 +78,16 @@ TEST(MinimumCut, EqualsBruteForce) {
   }
 }
 
-TEST(CutMask, FollowsPixelsThatAgree) {
+TEST(Cut, FollowsPixelsThatAgree) {
   // Old and fresh agree on the lines two pixels in from each side and nowhere else.
   const Size patch{12, 10};
   Image old(patch, 1, 0.0f), fresh(patch, 1, 1.0f);
   for (int y = 0; y < patch.height; ++y)
     for (int x = 0; x < patch.width; ++x)
       if (x == 2 || y == 2 || x == patch.width - 3 || y == patch.height - 3) *fresh.at(x, y) = 0;
-  const std::vector<unsigned char> mask = cut_mask(old, fresh, {4, 4, 4, 4});
+  const Cut best = cut(old, fresh, {4, 4, 4, 4});
+  EXPECT_EQ(best.error, 0);
+  const auto& mask = best.mask;
   for (int y = 0; y < patch.height; ++y)
     for (int x = 0; x < patch.width; ++x)
       if (*fresh.at(x, y) > 0) {
@@ -95,10 +97,10 @@ TEST(CutMask, FollowsPixelsThatAgree) {
       }
 }
 
-TEST(CutMask, TakesAllThatIsUnfilled) {
+TEST(Cut, TakesAllThatIsUnfilled) {
   const Image old = blobs(16, 16, 3, 4), fresh = blobs(16, 16, 3, 5);
   for (const Sides sides : {Sides{}, Sides{5, 0, 0, 0}, Sides{5, 5, 0, 0}, Sides{0, 5, 6, 3}}) {
-    const auto mask = cut_mask(old, fresh, sides);
+    const auto mask = cut(old, fresh, sides).mask;
     const auto weights = feathered(mask, old.size(), sides, 2);
     for (int y = 0; y < 16; ++y)
       for (int x = 0; x < 16; ++x) {

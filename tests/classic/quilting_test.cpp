@@ -61,16 +61,28 @@ TEST(Quilting, TilesAcrossTheSeam) {
 
 TEST(Quilting, FeatheringStaysInTheExemplarsRangeAndOnlyTouchesOverlaps) {
   const Image exemplar = blobs(64, 64, 2, 3);
-  const Image cut = quilt({.patch_size = 24}, exemplar, {{24, 90}, Tile::none});
-  const Image soft = quilt({.patch_size = 24, .feather = 2}, exemplar, {{24, 90}, Tile::none});
+  // One column of two patches that overlap in rows 18 to 23, not cut from one piece. What is above
+  // and below comes from one patch alone, whatever the feather.
+  const QuiltingParams sharp{.patch_size = 24, .overlap = 0.25, .variety = 1};
+  QuiltingParams blended = sharp;
+  blended.feather = 2;
+  const Target target{{24, 42}, Tile::none};
+  const Image cut = quilt(sharp, exemplar, target);
+  const Image soft = quilt(blended, exemplar, target);
   const ChannelRange range = channel_range(exemplar);
-  for (int y = 0; y < 90; ++y)
+  bool overlap_differs = false;
+  for (int y = 0; y < 42; ++y)
     for (int x = 0; x < 24; ++x)
       for (int c = 0; c < 2; ++c) {
-        EXPECT_GE(soft.at(x, y)[c], range.low[static_cast<std::size_t>(c)]);
-        EXPECT_LE(soft.at(x, y)[c], range.high[static_cast<std::size_t>(c)]);
+        const float a = cut.at(x, y)[c], b = soft.at(x, y)[c];
+        EXPECT_GE(b, range.low[static_cast<std::size_t>(c)]);
+        EXPECT_LE(b, range.high[static_cast<std::size_t>(c)]);
+        if (y < 18 || y >= 24)
+          ASSERT_EQ(a, b) << x << ' ' << y;
+        else
+          overlap_differs |= a != b;
       }
-  EXPECT_NE(cut, soft);
+  EXPECT_TRUE(overlap_differs);
 }
 
 TEST(Quilting, SameBytesForAnyNumberOfThreads) {
@@ -86,6 +98,46 @@ TEST(Quilting, SameBytesForAnyNumberOfThreads) {
     EXPECT_EQ(results[0], results[2]);
     EXPECT_NE(results[0], quilt({.patch_size = 20}, exemplar, {{150, 130}, tile}, 2));
   }
+}
+
+/// Bricks of 48 × 16 pixels in mortar of 3, with a little grain; odd rows are shifted by half.
+Image bricks(int side) {
+  Image image(side, side, 1);
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      const int row = y / 16, column = (x + row % 2 * 24) / 48;
+      const bool mortar = y % 16 < 3 || (x + row % 2 * 24) % 48 < 3;
+      Random brick(3, static_cast<std::uint64_t>(row * 64 + column));
+      Random grain(4, static_cast<std::uint64_t>(y * side + x));
+      *image.at(x, y) = (mortar ? 1.0f : 0.3f + 0.1f * brick.uniform()) + 0.05f * grain.uniform();
+    }
+  return image;
+}
+
+TEST(Quilting, DefaultsKeepTheCoursesOfBricksStraight) {
+  const Image exemplar = bricks(96);
+  for (const Tile tile : {Tile::none, Tile::both})
+    for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+      const Image wall = quilt({}, exemplar, {{192, 192}, tile}, seed);
+      // Rows of pixels are bed joints, mortar throughout, or none; courses lie 16 rows apart.
+      std::vector<int> joints;
+      for (int y = 0; y < 192; ++y) {
+        int mortar = 0;
+        for (int x = 0; x < 192; ++x) mortar += *wall.at(x, y) > 0.7f ? 1 : 0;
+        if (mortar > 180) joints.push_back(y);
+      }
+      ASSERT_EQ(joints.size(), 36u) << "seed " << seed;
+      for (std::size_t i = 3; i < joints.size(); ++i)
+        EXPECT_EQ(joints[i] - joints[i - 3], 16) << "seed " << seed;
+    }
+}
+
+TEST(Quilting, VarietyUsesMoreOfTheExemplar) {
+  const Image exemplar = blobs(96, 96, 1, 9);
+  const auto used = [&](double variety) {
+    return colours(quilt({.variety = variety, .guidance = 0}, exemplar, {{192, 192}})).size();
+  };
+  EXPECT_GT(used(0.3), used(0));
 }
 
 TEST(Quilting, SmallExemplarsAndTargets) {
@@ -107,7 +159,7 @@ TEST(Quilting, ManyChannels) {
 
 TEST(Quilting, ReportsProgressAndStops) {
   const Image exemplar = blobs(50, 50, 1, 7);
-  std::int64_t calls = 0, last = 0, steps = 0;
+  std::int64_t calls = 0, last = -1, steps = 0;
   Control control;
   control.progress = [&](const Progress& p) {
     ++calls;
@@ -127,7 +179,7 @@ TEST(Quilting, ReportsProgressAndStops) {
 
 TEST(Quilting, RefusesWhatCannotBe) {
   const Image exemplar = blobs(10, 10, 1, 8);
-  EXPECT_THROW(quilt({.patch_size = 0}, exemplar, {}), ConfigError);
+  EXPECT_THROW(quilt({.patch_size = -1}, exemplar, {}), ConfigError);
   EXPECT_THROW(quilt({.overlap = 0.6}, exemplar, {}), ConfigError);
   EXPECT_THROW(quilt({}, Image(), {}), Error);
   EXPECT_THROW(quilt({}, exemplar, {{0, 5}, Tile::none}), Error);

@@ -185,17 +185,17 @@ TEST_F(ConfigText, OverridesTakeThePlaceOfWhatTheConfigSays) {
 TEST_F(ConfigText, OverridesOfOneMethodOrExemplar) {
   const std::string two = exemplar + quilting + "[[method]]\nname = 'q.2'\nkind = 'quilting'\n";
   const Config config = parse(two, {"method.q.2.patch_size=11", "exemplar.e.max_side=4"});
-  EXPECT_EQ(std::get<QuiltingParams>(config.methods.at(0).method).patch_size, 40);
+  EXPECT_EQ(std::get<QuiltingParams>(config.methods.at(0).method).patch_size, QuiltingParams{}.patch_size);
   EXPECT_EQ(std::get<QuiltingParams>(config.methods.at(1).method).patch_size, 11);
   EXPECT_EQ(config.exemplars.at(0).max_side, 4);
 }
 
 TEST_F(ConfigText, MistakesInOverridesAreFoundLikeThoseInTheFile) {
   const std::string text = exemplar + quilting + "patch_size = 9\n";
-  EXPECT_EQ(complaint(text, {"patch_size=0"}),
-            "--set patch_size=0: 'patch_size' = 0: allowed are 1 to 1024");
+  EXPECT_EQ(complaint(text, {"patch_size=-1"}),
+            "--set patch_size=-1: 'patch_size' = -1: allowed are 0 to 1024");
   EXPECT_EQ(complaint(text, {"patch_size=big"}),
-            "--set patch_size=big: 'patch_size' is a text, allowed is a whole number, 1 to 1024");
+            "--set patch_size=big: 'patch_size' is a text, allowed is a whole number, 0 to 1024");
   EXPECT_EQ(complaint(text, {"patchsize=8"}),
             "--set patchsize=8: unknown key 'patchsize' (did you mean 'patch_size'?)");
   EXPECT_EQ(complaint(text, {"method.q.patchsize=8"}),
