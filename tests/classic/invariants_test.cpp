@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "classic/histogram.h"
 #include "classic/markov.h"
@@ -155,7 +156,7 @@ TYPED_TEST(Invariants, TilesOnEachAxis) {
 }
 
 TYPED_TEST(Invariants, TinyExemplarsGiveSoundImagesOrAnError) {
-  for (const Size tiny : {Size{1, 1}, Size{1, 9}, Size{9, 1}, Size{2, 2}, Size{5, 3}})
+  for (const Size tiny : {Size{1, 1}, Size{1, 9}, Size{9, 1}, Size{2, 2}, Size{5, 3}, Size{40, 2}})
     for (const Tile tile : {Tile::none, Tile::both})
       for (const Size size : {Size{24, 20}, Size{1, 1}, Size{2, 30}}) {
         const Image exemplar = grain(tiny, 3);
@@ -167,14 +168,31 @@ TYPED_TEST(Invariants, TinyExemplarsGiveSoundImagesOrAnError) {
       }
 }
 
+TYPED_TEST(Invariants, TargetsSmallerThanAnyPatch) {
+  const Image exemplar = grain({48, 40}, 3);
+  for (const Tile tile : {Tile::none, Tile::x, Tile::both})
+    for (const Size size : {Size{1, 1}, Size{1, 40}, Size{50, 1}, Size{2, 2}, Size{3, 7}})
+      this->expect_sound(this->make(exemplar, size, 1, tile), exemplar, size);
+}
+
+TYPED_TEST(Invariants, LargeAndSmallValues) {
+  for (const float scale : {1e15f, 1e6f, 1e-6f}) {
+    Image exemplar = grain({40, 32}, 2);
+    for (float& value : exemplar.pixels) value *= scale;
+    this->expect_sound(this->make(exemplar, {50, 40}), exemplar, {50, 40});
+  }
+}
+
 TYPED_TEST(Invariants, RefusesWhatCannotBe) {
   const Image exemplar = grain({32, 32}, 3);
   EXPECT_THROW(this->make(Image(), {8, 8}), Error);
   EXPECT_THROW(this->make(exemplar, {0, 8}), Error);
   EXPECT_THROW(this->make(exemplar, {8, -1}), Error);
   Image broken = exemplar;
-  broken.pixels[100] = std::nanf("");
-  EXPECT_THROW(this->make(broken, {8, 8}), Error);
+  for (const float value : {std::nanf(""), std::numeric_limits<float>::infinity(), -3e38f, 2e15f}) {
+    broken.pixels[100] = value;
+    EXPECT_THROW(this->make(broken, {8, 8}), Error) << value;
+  }
 }
 
 TYPED_TEST(Invariants, ReportsItsStepsAndStopsWhenAsked) {

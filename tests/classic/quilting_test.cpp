@@ -63,7 +63,7 @@ TEST(Quilting, FeatheringStaysInTheExemplarsRangeAndOnlyTouchesOverlaps) {
   const Image exemplar = blobs(64, 64, 2, 3);
   // One column of two patches that overlap in rows 18 to 23, not cut from one piece. What is above
   // and below comes from one patch alone, whatever the feather.
-  const QuiltingParams sharp{.patch_size = 24, .overlap = 0.25, .variety = 1};
+  const QuiltingParams sharp{.patch_size = 24, .overlap = 0.25, .variety = 100};
   QuiltingParams blended = sharp;
   blended.feather = 2;
   const Target target{{24, 42}, Tile::none};
