@@ -86,17 +86,21 @@ void set_channel(Image& image, int channel, const cv::Mat& plane) {
     for (int x = 0; x < image.width; ++x) image.at(x, y)[channel] = plane.at<float>(y, x);
 }
 
-cv::Mat fourier_coefficients(const cv::Mat& plane) {
+cv::Mat fourier_coefficients(const cv::Mat& plane) { return fourier_coefficients(plane.clone()); }
+
+cv::Mat fourier_coefficients(cv::Mat&& plane) {
   // The mean is often far larger than all other coefficients and would drown them in rounding.
   const auto mean = static_cast<float>(cv::mean(plane)[0]);
+  plane -= mean;
   cv::Mat coefficients;
   if (is_slow(plane.cols) || is_slow(plane.rows)) {
-    const cv::Mat parts[] = {plane - mean, cv::Mat::zeros(plane.size(), CV_32F)};
+    const cv::Mat parts[] = {plane, cv::Mat::zeros(plane.size(), CV_32F)};
     cv::merge(parts, 2, coefficients);
     coefficients = dft_of_any_size(coefficients) / static_cast<double>(plane.total());
   } else {
-    cv::dft(plane - mean, coefficients, cv::DFT_COMPLEX_OUTPUT | cv::DFT_SCALE);
+    cv::dft(plane, coefficients, cv::DFT_COMPLEX_OUTPUT | cv::DFT_SCALE);
   }
+  plane.release();
   coefficients.at<Complex>(0, 0) += mean;
   return coefficients;
 }

@@ -27,7 +27,9 @@ void set_channel(Image& image, int channel, const cv::Mat& plane);
 /// of any size. Only columns 0 to W/2 count; the rest is their mirror image. Any size will do:
 /// lengths with a large prime factor are transformed as in Bluestein 1970, "A linear filtering
 /// approach to the computation of discrete Fourier transform".
+/// A plane that is handed over is used up.
 cv::Mat fourier_coefficients(const cv::Mat& plane);
+cv::Mat fourier_coefficients(cv::Mat&& plane);
 /// The inverse; it reads columns 0 to W/2 only.
 cv::Mat from_fourier_coefficients(const cv::Mat& coefficients);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "classic/check_input.h"
@@ -15,16 +16,18 @@ namespace gramloom {
 
 namespace {
 
+/// Bands that are matched before they are added up: no more than can be worked on at once, since
+/// each takes as much memory as an image. They are added in their order, whatever this number.
+std::size_t bands_at_once() { return static_cast<std::size_t>(thread_count()); }
+
 std::span<float> values_of(cv::Mat& plane) { return {plane.ptr<float>(), plane.total()}; }
 
-/// body(index) for each band of a pyramid, in parallel.
+/// body(index) for bands first to last − 1 of a pyramid, in parallel.
 template <class Body>
-void for_each_band(const SteerablePyramid& pyramid, const Body& body) {
-  parallel_for(static_cast<std::int64_t>(pyramid.bands.size()), 1,
+void for_each_band(std::size_t first, std::size_t last, const Body& body) {
+  parallel_for(static_cast<std::int64_t>(last - first), 1,
                [&](std::int64_t begin, std::int64_t end) {
-                 for (auto b = static_cast<std::size_t>(begin); b < static_cast<std::size_t>(end);
-                      ++b)
-                   body(b);
+                 for (auto b = begin; b < end; ++b) body(first + static_cast<std::size_t>(b));
                });
 }
 
@@ -38,26 +41,40 @@ Histograms analyse(cv::Mat plane, const SteerablePyramid& pyramid) {
   Histograms histograms{sorted_values(values_of(plane)), {}};
   histograms.bands.resize(pyramid.bands.size());
   const cv::Mat coefficients = periodic_coefficients(plane);
-  for_each_band(pyramid, [&](std::size_t b) {
+  for_each_band(0, pyramid.bands.size(), [&](std::size_t b) {
     cv::Mat band = band_of(coefficients, pyramid.bands[b]);
     histograms.bands[b] = sorted_values(values_of(band));
   });
   return histograms;
 }
 
+/// The columns of a plane's coefficients that count, and these as a whole matrix again.
+cv::Mat half_of(const cv::Mat& coefficients) {
+  return coefficients.colRange(0, coefficients.cols / 2 + 1).clone();
+}
+cv::Mat whole_of(const cv::Mat& half, cv::Size size) {
+  cv::Mat coefficients = cv::Mat::zeros(size, half.type());
+  half.copyTo(coefficients.colRange(0, half.cols));
+  return coefficients;
+}
+
 /// One round: bands get their histograms, the image is put together again and gets its own.
 void match(cv::Mat& plane, const SteerablePyramid& pyramid, const Histograms& histograms) {
-  cv::Mat coefficients = fourier_coefficients(plane);
-  std::vector<cv::Mat> matched(pyramid.bands.size());
-  for_each_band(pyramid, [&](std::size_t b) {
-    cv::Mat band = band_of(coefficients, pyramid.bands[b]);
-    match_values(values_of(band), histograms.bands[b]);
-    matched[b] = fourier_coefficients(band);
-  });
-  coefficients.setTo(0);
-  for (std::size_t b = 0; b < matched.size(); ++b)
-    add_band(coefficients, matched[b], pyramid.bands[b]);
-  plane = from_fourier_coefficients(coefficients);
+  const cv::Size size = plane.size();
+  cv::Mat coefficients = half_of(fourier_coefficients(std::move(plane)));
+  cv::Mat sum = cv::Mat::zeros(coefficients.size(), coefficients.type());
+  for (std::size_t first = 0; first < pyramid.bands.size(); first += bands_at_once()) {
+    const std::size_t last = std::min(first + bands_at_once(), pyramid.bands.size());
+    std::vector<cv::Mat> matched(last - first);
+    for_each_band(first, last, [&](std::size_t b) {
+      cv::Mat band = band_of(coefficients, pyramid.bands[b]);
+      match_values(values_of(band), histograms.bands[b]);
+      matched[b - first] = half_of(fourier_coefficients(std::move(band)));
+    });
+    for (std::size_t b = first; b < last; ++b) add_band(sum, matched[b - first], pyramid.bands[b]);
+  }
+  coefficients.release();
+  plane = from_fourier_coefficients(whole_of(sum, size));
   match_values(values_of(plane), histograms.pixels);
 }
 
@@ -96,7 +113,7 @@ Texture synthesise(const PyramidParams& params, const Image& exemplar, const Tar
   const auto to = steerable_pyramid(period, levels, params.orientations);
   const ColourPca pca = colour_pca(exemplar);
   const Image axes = whitened(exemplar, pca);
-  Image result(target.size, exemplar.channels);
+  std::vector<cv::Mat> planes;
   for (int c = 0; c < exemplar.channels; ++c) {
     const bool flat = pca.deviation[static_cast<std::size_t>(c)] == 0;  // stays 0, as whitened
     cv::Mat plane;
@@ -110,7 +127,13 @@ Texture synthesise(const PyramidParams& params, const Image& exemplar, const Tar
       if (!flat) match(plane, to, histograms);
       control.step(std::int64_t{c} * params.iterations + i + 1, steps);
     }
-    if (!flat) set_channel(result, c, plane);
+    planes.push_back(plane);
+  }
+  Image result(target.size, exemplar.channels);
+  for (int c = 0; c < exemplar.channels; ++c) {
+    cv::Mat& plane = planes[static_cast<std::size_t>(c)];
+    if (!plane.empty()) set_channel(result, c, plane);
+    plane.release();
   }
   result = unwhitened(result, pca);
   match_histogram(result, exemplar);
@@ -123,9 +146,10 @@ Cost estimate(const PyramidParams& params, Size exemplar, int channels, const Ta
                      std::max(target.size.height, exemplar.height);
   // Samples of all bands, in images: level 0 and the high-pass in full, a quarter a level down.
   const double bands = params.orientations * 4.0 / 3 + 1.1;
-  const int in_flight = std::min(params.orientations + 1, thread_count());
-  // Filters 2 bytes a sample, matched bands 8, bands in flight with what sorting needs 24.
-  return {4 * channels * 2 * (in + out) + out * (16 + 10 * bands + 24 * in_flight),
+  const auto in_flight = static_cast<double>(bands_at_once());
+  // Filters 2 bytes a sample; the spectrum, the sum and matched bands 4 each; bands in flight with
+  // what sorting needs 14.
+  return {4 * channels * 2 * (in + out) + out * (8 + 2 * bands + 18 * in_flight),
           channels * params.iterations * 3e-8 * bands * out};
 }
 

@@ -24,32 +24,64 @@ float to_value(std::uint32_t key) {
   return std::bit_cast<float>(key & 0x80000000u ? key & 0x7FFFFFFFu : ~key);
 }
 
-// A radix sort from the lowest digit on is stable and takes three passes over 32-bit keys: several
-// times faster than comparing. An item keeps its key in the low 32 bits.
+// A stable radix sort takes three passes over 32-bit keys: several times faster than comparing. An
+// item keeps its key in the low 32 bits. The first pass deals the values into buckets by the
+// highest digit; the others sort one bucket after another, from the lowest digit on, so that there
+// is no second copy of all items.
 constexpr int digit_bits = 11;
-constexpr int passes = 3;
+constexpr int low_passes = 2;
 constexpr std::size_t digits = std::size_t{1} << digit_bits;
 
+std::size_t high_digit(std::uint32_t key) { return key >> (low_passes * digit_bits); }
+
 template <class Item>
-std::size_t digit_of(Item item, int pass) {
-  return static_cast<std::size_t>(item >> (pass * digit_bits)) &
-         ((pass == passes - 1 ? std::size_t{1} << (32 - 2 * digit_bits) : digits) - 1);
+std::size_t low_digit(Item item, int pass) {
+  return static_cast<std::size_t>(item >> (pass * digit_bits)) & (digits - 1);
 }
 
 template <class Item>
-void radix_sort(std::vector<Item>& items) {
-  std::array<std::array<std::size_t, digits>, passes> place{};
+void sort_bucket(std::span<Item> items, std::vector<Item>& other) {
+  std::array<std::array<std::size_t, digits>, low_passes> place{};
   for (const Item item : items)
-    for (int pass = 0; pass < passes; ++pass)
-      ++place[static_cast<std::size_t>(pass)][digit_of(item, pass)];
-  std::vector<Item> other(items.size());
-  for (int pass = 0; pass < passes; ++pass) {
-    auto& next = place[static_cast<std::size_t>(pass)];
+    for (int pass = 0; pass < low_passes; ++pass)
+      ++place[static_cast<std::size_t>(pass)][low_digit(item, pass)];
+  other.resize(std::max(other.size(), items.size()));
+  static_assert(low_passes % 2 == 0);  // the items end where they began
+  Item *from = items.data(), *to = other.data();
+  for (auto& next : place) {
+    const auto pass = static_cast<int>(&next - place.data());
     std::size_t start = 0;
     for (auto& n : next) start += std::exchange(n, start);
-    for (const Item item : items) other[next[digit_of(item, pass)]++] = item;
-    items.swap(other);
+    for (std::size_t i = 0; i < items.size(); ++i) to[next[low_digit(from[i], pass)]++] = from[i];
+    std::swap(from, to);
   }
+}
+
+/// make(i, key) for the i-th of the values, in the order of the keys.
+template <class Item, class Make>
+std::vector<Item> sorted_items(std::span<const float> values, const Make& make) {
+  std::array<std::size_t, digits> next{};
+  for (const float value : values) ++next[high_digit(to_key(value))];
+  std::size_t start = 0;
+  for (auto& n : next) start += std::exchange(n, start);
+  std::vector<Item> items(values.size()), other;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::uint32_t key = to_key(values[i]);
+    items[next[high_digit(key)]++] = make(i, key);
+  }
+  constexpr auto by_key = [](Item a, Item b) {
+    return static_cast<std::uint32_t>(a) < static_cast<std::uint32_t>(b);
+  };
+  std::size_t begin = 0;
+  for (const std::size_t end : next) {  // where the bucket ended
+    const std::span bucket(items.data() + begin, end - begin);
+    if (bucket.size() > digits / 4)
+      sort_bucket(bucket, other);
+    else
+      std::stable_sort(bucket.begin(), bucket.end(), by_key);
+    begin = end;
+  }
+  return items;
 }
 
 /// Position of each rank's value, and the weight of its successor, in the exemplar's sorted values.
@@ -88,9 +120,8 @@ std::vector<float> channel_values(const Image& image, int channel) {
 }  // namespace
 
 std::vector<float> sorted_values(std::span<const float> values) {
-  std::vector<std::uint32_t> keys(values.size());
-  std::transform(values.begin(), values.end(), keys.begin(), to_key);
-  radix_sort(keys);
+  const auto keys =
+      sorted_items<std::uint32_t>(values, [](std::size_t, std::uint32_t key) { return key; });
   std::vector<float> sorted(keys.size());
   std::transform(keys.begin(), keys.end(), sorted.begin(), to_value);
   return sorted;
@@ -100,10 +131,9 @@ void match_values(std::span<float> values, std::span<const float> sorted) {
   if (sorted.empty()) throw Error("a histogram of no values cannot be matched");
   if (values.size() > std::numeric_limits<std::uint32_t>::max())
     throw Error("{} values are too many to match their histogram", values.size());
-  std::vector<std::uint64_t> items(values.size());  // (place, key)
-  for (std::size_t i = 0; i < items.size(); ++i)
-    items[i] = (std::uint64_t{i} << 32) | to_key(values[i]);
-  radix_sort(items);
+  const auto items = sorted_items<std::uint64_t>(values, [](std::size_t i, std::uint32_t key) {
+    return std::uint64_t{i} << 32 | key;  // (place, key)
+  });
   const Quantiles quantile(sorted, items.size());
   for (std::size_t rank = 0; rank < items.size(); ++rank)
     values[static_cast<std::size_t>(items[rank] >> 32)] = quantile(rank);
