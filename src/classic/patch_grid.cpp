@@ -69,4 +69,13 @@ std::vector<std::vector<PatchSlot>> waves(const PatchAxis& x, const PatchAxis& y
   return result;
 }
 
+Image under(const Image& image, int left, int top, Size patch) {
+  Image result(patch, image.channels);
+  for (int y = 0; y < patch.height; ++y)
+    for (int x = 0; x < patch.width; ++x)
+      std::copy_n(image.at((left + x) % image.width, (top + y) % image.height), image.channels,
+                  result.at(x, y));
+  return result;
+}
+
 }  // namespace gramloom

@@ -35,4 +35,7 @@ struct PatchSlot {
 /// they can be laid at the same time.
 std::vector<std::vector<PatchSlot>> waves(const PatchAxis& x, const PatchAxis& y);
 
+/// The part of `image` under a patch at (left, top), which may reach around its edges.
+Image under(const Image& image, int left, int top, Size patch);
+
 }  // namespace gramloom

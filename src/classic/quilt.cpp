@@ -99,16 +99,6 @@ PatchOrigin draw(const std::vector<float>& errors, int width, float limit, Rando
   return position;
 }
 
-/// The part of `image` under a patch at (left, top), which may reach around its edges.
-Image under(const Image& image, int left, int top, Size patch) {
-  Image result(patch, image.channels);
-  for (int y = 0; y < patch.height; ++y)
-    for (int x = 0; x < patch.width; ++x)
-      std::copy_n(image.at((left + x) % image.width, (top + y) % image.height), image.channels,
-                  result.at(x, y));
-  return result;
-}
-
 PatchOrigin anywhere(Size positions, Random& random) {
   return {static_cast<int>(random.below(static_cast<std::uint32_t>(positions.width))),
           static_cast<int>(random.below(static_cast<std::uint32_t>(positions.height)))};
@@ -171,28 +161,6 @@ Choice lay(Work& work, const PatchSlot& slot, Random random) {
 }
 
 }  // namespace
-
-QuiltGuide::QuiltGuide(const Image& exemplar, Image canvas, Size patch)
-    : canvas_(std::move(canvas)),
-      patch_{std::min(std::max(1, patch.width / factor), exemplar.width),
-             std::min(std::max(1, patch.height / factor), exemplar.height)},
-      errors_(exemplar, patch_) {}
-
-void QuiltGuide::add_to(std::vector<float>& errors, Size positions, PatchOrigin place, Size size,
-                        float weight) const {
-  const Image wanted = under(canvas_, place.x * canvas_.width / size.width,
-                             place.y * canvas_.height / size.height, patch_);
-  std::vector<float> coarse;
-  errors_.compute(wanted, {patch_.width, 0, 0, 0}, coarse);
-  const Size origins = errors_.positions();
-  for (int v = 0; v < positions.height; ++v) {
-    const float* from =
-        coarse.data() + to_size(std::min(v / factor, origins.height - 1)) * to_size(origins.width);
-    float* to = errors.data() + to_size(v) * to_size(positions.width);
-    for (int u = 0; u < positions.width; ++u)
-      to[u] += factor * factor * weight * from[std::min(u / factor, origins.width - 1)];
-  }
-}
 
 Quilt lay_quilt(const Image& exemplar, const PatchAxis& x, const PatchAxis& y,
                 const QuiltRules& rules, const QuiltGuide* guide, Random random,
