@@ -129,9 +129,7 @@ float OverlapErrors::scale(const Sides& sides) const {
   return static_cast<float>(variance_ * (patch_.width * patch_.height - inside));
 }
 
-float OverlapErrors::noise(const Sides& sides) const {
-  return 1e-5f * scale(sides);
-}
+float OverlapErrors::noise(const Sides& sides) const { return 1e-5f * scale(sides); }
 
 void OverlapErrors::compute(const Image& patch, const Sides& sides,
                             std::vector<float>& errors) const {

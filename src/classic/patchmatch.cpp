@@ -67,7 +67,12 @@ Size patches_of(Size texture, Tile tile) {
 /// on the coarsest level, a third of the exemplar, which overlap widely and match closely, keep
 /// long rows straight.
 Image first_canvas(const Level& level, Tile tile, Random random) {
-  const QuiltingParams params{.patch_size = 12, .overlap = 1.0 / 3, .tolerance = 0.05, .candidates = 1, .variety = 0, .guidance = 0};
+  const QuiltingParams params{.patch_size = 12,
+                              .overlap = 1.0 / 3,
+                              .tolerance = 0.05,
+                              .candidates = 1,
+                              .variety = 0,
+                              .guidance = 0};
   const Image quilt = synthesise(params, level.exemplar, {level.texture, tile}, random, {}).image;
   const Size patches = patches_of(level.texture, tile);
   Image canvas(patches.width + border, patches.height + border, field_features);

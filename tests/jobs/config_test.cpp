@@ -185,7 +185,8 @@ TEST_F(ConfigText, OverridesTakeThePlaceOfWhatTheConfigSays) {
 TEST_F(ConfigText, OverridesOfOneMethodOrExemplar) {
   const std::string two = exemplar + quilting + "[[method]]\nname = 'q.2'\nkind = 'quilting'\n";
   const Config config = parse(two, {"method.q.2.patch_size=11", "exemplar.e.max_side=4"});
-  EXPECT_EQ(std::get<QuiltingParams>(config.methods.at(0).method).patch_size, QuiltingParams{}.patch_size);
+  EXPECT_EQ(std::get<QuiltingParams>(config.methods.at(0).method).patch_size,
+            QuiltingParams{}.patch_size);
   EXPECT_EQ(std::get<QuiltingParams>(config.methods.at(1).method).patch_size, 11);
   EXPECT_EQ(config.exemplars.at(0).max_side, 4);
 }
