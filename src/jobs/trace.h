@@ -1,37 +1,13 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "core/progress.h"
+#include "io/trace_file.h"
 
 namespace gramloom {
-
-/// The loss of an iterative method, step by step.
-struct TraceRow {
-  std::int64_t step = 0;
-  std::int64_t evaluations = 0;  // since the start
-  double seconds = 0;            // since the start
-  double loss = 0;
-  std::vector<double> terms;
-
-  friend bool operator==(const TraceRow&, const TraceRow&) = default;
-};
-
-struct Trace {
-  std::vector<std::string> terms;  // names
-  std::vector<TraceRow> rows;
-
-  friend bool operator==(const Trace&, const Trace&) = default;
-};
-
-/// "step,evaluations,seconds,loss,<terms>" and a line a row. Numbers come back as they were.
-std::string to_csv(const Trace& trace);
-/// The reverse. A last line that is not whole is left out, and so are lines that begin with #.
-Trace parse_trace(const std::string& csv);
 
 /// The trace of a job that is under way. It stands on disk from the first row on, beside the
 /// method's checkpoint, so that a job that was killed can go on with both; `mark` in its first line

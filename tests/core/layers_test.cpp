@@ -22,7 +22,7 @@ const std::map<std::string, std::set<std::string>> may_include{
     {"surface", {"core"}},
     {"neural", {"core", "io"}},
     {"metrics", {"core", "classic"}},
-    {"report", {"core", "io"}},
+    {"report", {"core", "io", "metrics"}},
     {"jobs", {"core", "io", "procedural", "classic", "neural", "surface", "metrics"}},
 };
 

@@ -1,0 +1,42 @@
+#include "report/page.h"
+
+#include "core/error.h"
+#include "io/text_file.h"
+#include "report/page_data.h"
+#include "report/page_template.h"
+
+namespace gramloom {
+
+namespace {
+
+// JSON inside a script element: without a "<" nothing ends the element or begins a comment.
+std::string script_safe(const Json& data) {
+  std::string safe;
+  for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+    if (c == '<')
+      safe += "\\u003c";
+    else
+      safe += c;
+  }
+  return safe;
+}
+
+}  // namespace
+
+std::string page_html(const Json& data) {
+  constexpr std::string_view mark = "/*data*/";
+  std::string html(page_template);
+  return html.replace(html.find(mark), mark.size(), script_safe(data));
+}
+
+std::filesystem::path write_page(const std::filesystem::path& folder) {
+  const std::filesystem::path page = folder / "index.html";
+  try {
+    write_text(page, page_html(page_data(read_run(folder))) + "\n");
+  } catch (const Json::exception& error) {
+    throw Error("{}: holds what no run writes: {}", folder.string(), error.what());
+  }
+  return page;
+}
+
+}  // namespace gramloom

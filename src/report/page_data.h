@@ -1,0 +1,25 @@
+#pragma once
+
+#include "report/run_folder.h"
+
+namespace gramloom {
+
+/// What the page shows, as the JSON that its script reads; every path is relative to the folder:
+///   title, run {date, command, config, set, versions, machine}, trouble [text …]
+///   metrics    [{name, group, meaning, range, higher_is_better, paper, fooled_by} …]
+///   exemplars  [{name, picture {file, width, height} or null, image: its path in the config} …]
+///   methods    [name …], in the order of the jobs
+///   jobs       [{name, exemplar, method, kind, seed, width, height, status, error, seconds,
+///                peak_memory_mb, settings, metrics, score_error, copy_map,
+///                pictures [{label, file} …]: the texture, then its maps,
+///                trace {steps, seconds, loss} or null} …]
+///   diversity  [{exemplar, method, value} …]
+/// Makes previews of pictures that browsers do not show (see shown_file). A picture that is missing
+/// or broken is left out and named in `trouble`.
+Json page_data(const RunOnDisk& run);
+
+/// `trace` thinned out to at most `most` points, the first and the last among them, as {steps,
+/// seconds, loss}.
+Json thin_trace(const Trace& trace, std::size_t most);
+
+}  // namespace gramloom

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "io/trace_file.h"
+
+namespace gramloom {
+
+using Json = nlohmann::ordered_json;
+
+/// What a run left of one job. A job that was never begun, or whose record cannot be read, has a
+/// record that says so.
+struct JobOnDisk {
+  std::string name;  // "pebbles/quilting/seed1": its files in the run's folder, without extension
+  Json record;       // at least exemplar, method, seed, status and error
+  Trace trace;       // no rows: the method does not iterate
+};
+
+/// A run as its folder tells it.
+struct RunOnDisk {
+  std::filesystem::path folder;
+  Json run;  // run.json
+  std::vector<JobOnDisk> jobs;
+};
+
+/// Reads run.json and the jobs that it names. Throws Error when that file is missing or not one of
+/// a run; what is wrong with a single job is said in its record.
+RunOnDisk read_run(const std::filesystem::path& folder);
+
+}  // namespace gramloom

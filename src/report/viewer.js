@@ -1,0 +1,273 @@
+// One picture enlarged: flipped with any other, tiled, its copy map, its settings and its command.
+
+const view = { a: null, b: null, showB: false, label: 'picture', tiled: false };
+const dialog = byId('viewer');
+
+/** The picture that stands in for `subject` in another exemplar's row: the same method and seed. */
+const counterpart = (subject, exemplar) => subjects.find((other) => other.exemplar === exemplar &&
+  (subject.job ? other.job?.method === subject.job.method && other.job.seed === subject.job.seed
+    : !other.job));
+const rowOfView = () => subjects.filter((subject) => subject.exemplar === view.a.exemplar &&
+  (!subject.job || isShown(subject.job) || subject === view.a));
+
+function openViewer(subject) {
+  const source = subjects.find((other) => other.exemplar === subject.exemplar && !other.job);
+  const others = subjects.filter((other) => other.exemplar === subject.exemplar && other !== subject &&
+    other.views.length > 0);
+  Object.assign(view, { a: subject, b: subject === source ? others[0] ?? null : source ?? others[0] ?? null,
+    showB: false, label: 'picture', tiled: false });
+  drawViewer();
+  if (!dialog.open) dialog.showModal();
+  fitStage();
+  byId('stage').focus();
+}
+
+function showSubject(subject) {
+  if (!subject) return;
+  if (view.b && view.b.exemplar === view.a.exemplar && subject.exemplar !== view.a.exemplar)
+    view.b = counterpart(view.b, subject.exemplar) ?? view.b;
+  view.a = subject;
+  view.showB = false;
+  const focus = document.activeElement?.dataset?.keep;
+  drawViewer();
+  fitStage();
+  (dialog.querySelector(`[data-keep="${focus}"]`) ?? byId('stage')).focus();
+}
+
+function step(by) {
+  const row = rowOfView();
+  showSubject(row[(row.indexOf(view.a) + by + row.length) % row.length]);
+}
+
+function stepExemplar(by) {
+  const names = shownExemplars().map(({ name }) => name);
+  const name = names[(names.indexOf(view.a.exemplar) + by + names.length) % names.length];
+  if (name !== view.a.exemplar) showSubject(counterpart(view.a, name));
+}
+
+function flip() {
+  if (!view.b) return;
+  view.showB = !view.showB;
+  drawViewer();
+  fitStage();
+}
+
+/** The file of a subject in the chosen view; one that lacks this view shows its picture. */
+const fileOf = (subject) =>
+  (subject.views.find(({ label }) => label === view.label) ?? subject.views[0])?.file;
+
+// Both pictures of the pair lie on one another, so that flipping moves nothing.
+function layer(subject, hidden) {
+  const file = fileOf(subject);
+  if (!file) {
+    const [state, why] = stateOf(subject.job);
+    return el('div', { class: 'layer message', hidden }, el('strong', {}, state), el('span', {}, why));
+  }
+  const copies = view.tiled ? 4 : 1;
+  return el('div', { class: view.tiled ? 'layer tiled' : 'layer', hidden,
+    'data-width': subject.width, 'data-height': subject.height },
+  Array.from({ length: copies }, (_, i) => el('img', { src: address(file),
+    alt: i ? '' : `${describe(subject)}${view.label === 'picture' ? '' : `: ${view.label}`}` })));
+}
+
+function drawStage() {
+  const shown = view.showB ? view.b : view.a;
+  return el('div', { id: 'stage', class: 'stage', tabindex: '0', 'data-keep': 'stage', onclick: flip,
+    'aria-label': `${describe(shown)}. Space flips`, role: 'group' },
+  layer(view.a, view.showB), view.b && layer(view.b, !view.showB),
+  el('span', { class: 'tag', 'aria-live': 'polite' },
+    `${view.showB ? 'B' : 'A'} · ${view.a.exemplar === view.b?.exemplar ? '' : `${shown.exemplar} · `}${shown.title}`));
+}
+
+/** The largest whole multiple that both pictures fit with, or the fraction where none does. */
+function fitStage() {
+  const stage = byId('stage');
+  if (!dialog.open || !stage) return;
+  const layers = [...stage.querySelectorAll('.layer[data-width]')];
+  const times = view.tiled ? 2 : 1;
+  const width = Math.max(...layers.map((node) => Number(node.dataset.width)), 1) * times;
+  const height = Math.max(...layers.map((node) => Number(node.dataset.height)), 1) * times;
+  const fits = Math.min(stage.clientWidth / width, stage.clientHeight / height);
+  const scale = fits >= 1 ? Math.floor(fits) : fits;
+  stage.classList.toggle('smooth', scale * devicePixelRatio < 1);
+  for (const node of layers)
+    for (const image of node.children) {
+      image.style.width = `${Math.max(1, Math.floor(node.dataset.width * scale))}px`;
+      image.style.height = `${Math.max(1, Math.floor(node.dataset.height * scale))}px`;
+    }
+}
+
+function pairChoice(letter, subject, onChoice) {
+  const groups = data.exemplars.map(({ name }) => el('optgroup', { label: name },
+    subjects.filter((other) => other.exemplar === name).map((other) =>
+      el('option', { value: other.id, selected: other === subject }, `${name} · ${other.title}`))));
+  return el('label', { class: (letter === 'B') === view.showB ? 'choice on' : 'choice' },
+    el('span', {}, letter),
+    el('select', { 'data-keep': letter, onchange: (event) => onChoice(subjectById.get(event.target.value)) },
+      groups));
+}
+
+function redraw(change) {
+  change();
+  const focus = document.activeElement?.dataset?.keep;
+  drawViewer();
+  fitStage();
+  dialog.querySelector(`[data-keep="${focus}"]`)?.focus();
+}
+
+function drawControls() {
+  const labels = [...new Set([view.a, view.b].filter(Boolean)
+    .flatMap((subject) => subject.views.map(({ label }) => label)))];
+  const button = (text, on, hint, change) => el('button', { type: 'button', title: hint,
+    'data-keep': text, 'aria-pressed': String(on), onclick: () => redraw(change) }, text);
+  return el('div', { class: 'viewer-controls' },
+    el('div', { class: 'pair' },
+      pairChoice('A', view.a, showSubject),
+      view.b && el('button', { type: 'button', class: 'flip', 'data-keep': 'flip', title: 'Space',
+        onclick: () => redraw(() => { view.showB = !view.showB; }) }, 'flip'),
+      view.b && pairChoice('B', view.b, (subject) => redraw(() => { view.b = subject; view.showB = true; }))),
+    el('div', { class: 'segments', role: 'group', 'aria-label': 'What of it' },
+      button('2 × 2', view.tiled, 't', () => { view.tiled = !view.tiled; }),
+      labels.length > 1 && labels.map((label) => button(label, label === view.label,
+        label === 'copy map' ? 'c: where in the exemplar each pixel came from' : null,
+        () => { view.label = label; view.showB &&= view.b.views.some((own) => own.label === label); }))),
+    el('p', { class: 'keys' }, '← → pictures · ↑ ↓ exemplars · space flips · t 2 × 2 · c copy map · esc closes'));
+}
+
+function drawStrip() {
+  return el('div', { class: 'strip', role: 'group', 'aria-label': `Pictures of ${view.a.exemplar}` },
+    rowOfView().map((subject) => el('button', { type: 'button', title: subject.title,
+      'aria-label': subject.title, 'aria-current': subject === view.a ? 'true' : null,
+      onclick: () => showSubject(subject) },
+    subject.views.length > 0
+      ? el('img', { src: address(subject.views[0].file), alt: '', loading: 'lazy', width: 44, height: 44 })
+      : el('span', {}, '×'))));
+}
+
+// --- what is known of the picture -----------------------------------------------------------------------
+
+function rankText(job, score) {
+  const values = data.jobs.filter((other) => other.exemplar === job.exemplar)
+    .map((other) => valueOf(other, score.key)).filter((value) => value !== null);
+  if (score.higher === null || values.length < 2) return '';
+  const value = valueOf(job, score.key);
+  return `${1 + values.filter((other) => compare(score, other, value) < 0).length} of ${values.length}`;
+}
+
+function scoreList(job) {
+  const there = scores.filter((score) => valueOf(job, score.key) !== null);
+  if (there.length === 0) return null;
+  return el('table', { class: 'own-scores' },
+    el('caption', {}, 'Scores, and their rank among the results of this exemplar'),
+    el('tbody', {}, there.map((score) => el('tr', {},
+      el('th', { scope: 'row' }, score.label, ' ',
+        el('span', { class: 'direction', title: direction(score) }, arrow(score))),
+      el('td', {}, show(score, valueOf(job, score.key))),
+      el('td', { class: 'rank' }, rankText(job, score))))));
+}
+
+/** A value as TOML. Quoted texts are the same in TOML and JSON, but for U+007F. */
+function toToml(value) {
+  if (value === 'inf' || value === '-inf') return value;
+  if (Array.isArray(value)) return `[${value.map(toToml).join(', ')}]`;
+  if (typeof value === 'string') return JSON.stringify(value).replaceAll('\x7f', '\\u007F');
+  return String(value);
+}
+
+/** The job's resolved settings as a config that makes this picture and no other. */
+function configOf(job) {
+  const { method = {}, exemplar, seed, files, ...rest } = job.settings ?? {};
+  const lines = (object) => Object.entries(object).filter(([, value]) => value !== null)
+    .map(([key, value]) => `${key} = ${toToml(value)}`);
+  const source = data.exemplars.find(({ name }) => name === job.exemplar);
+  return [`seeds = [${seed ?? job.seed}]`, ...lines(rest),
+    ...(exemplar ? ['', '[[exemplar]]', `name = ${toToml(job.exemplar)}`,
+      ...lines({ image: source?.image ?? exemplar.image, max_side: exemplar.max_side ?? null })] : []),
+    '', '[[method]]', `name = ${toToml(job.method)}`, ...lines(method)].join('\n') + '\n';
+}
+
+/** The command that makes this picture again. Only neural results depend on the threads. */
+function commandOf(job) {
+  const { command = [], config = 'CONFIG', set = [], machine = {} } = data.run;
+  return [command[0] ?? 'gramloom', 'run', config, '--only', job.name,
+    ...set.flatMap((option) => ['--set', option]),
+    ...(job.kind === 'neural' && machine.threads ? ['--threads', String(machine.threads)] : [])]
+    .map(quoted).join(' ');
+}
+
+function drawDetails(subject) {
+  const job = subject.job;
+  if (!job) return el('div', { class: 'details' },
+    el('p', {}, `${subject.width} × ${subject.height} pixels, as the methods saw it.`),
+    el('p', {}, el('a', { href: address(subject.views[0].file) }, 'the picture')));
+  const settings = configOf(job);
+  const command = commandOf(job);
+  return el('div', { class: 'details' },
+    el('p', {}, el('span', { class: job.status === 'done' ? '' : 'bad' }, job.status),
+      job.seconds > 0 && ` in ${job.seconds.toPrecision(3)} s`,
+      job.peak_memory_mb > 0 && `, ${Math.round(job.peak_memory_mb)} MB`,
+      `. ${subject.width} × ${subject.height} pixels.`),
+    job.error && el('p', { class: 'bad error' }, job.error),
+    job.score_error && el('p', { class: 'bad error' }, `not scored: ${job.score_error}`),
+    scoreList(job),
+    el('h3', {}, 'Make it again'),
+    el('div', { class: 'code' }, el('code', { id: 'command' }, command),
+      copyButton(() => command, 'Copy the command')),
+    job.settings && [el('h3', {}, 'Its settings, as a config'),
+      el('div', { class: 'code' }, el('pre', { id: 'settings', tabindex: '0' }, settings),
+        copyButton(() => settings, 'Copy the settings')),
+      data.run.config && el('p', { class: 'small' }, 'Paths are relative to the folder of ',
+        el('code', {}, data.run.config), '.')],
+    el('p', { class: 'small' }, 'Files: ',
+      [[subject.views[0]?.file, 'picture'], [`${job.name}.json`, 'record'],
+        [job.trace && `${job.name}.csv`, 'losses']].filter(([file, text]) => file &&
+          (text !== 'record' || job.status !== 'waiting'))
+        .map(([file, text], i) => [i ? ', ' : '', el('a', { href: address(file) }, text)])));
+}
+
+function drawViewer() {
+  const shown = view.showB ? view.b : view.a;
+  dialog.replaceChildren(
+    el('div', { class: 'viewer-head' },
+      el('h2', { id: 'viewer-title' }, `${shown.exemplar} `, el('span', {}, shown.title)),
+      el('button', { type: 'button', class: 'close', 'aria-label': 'Close', onclick: () => dialog.close() }, '×')),
+    el('div', { class: 'viewer-body' },
+      el('div', { class: 'viewer-left' }, drawStage(), drawControls(), drawStrip()),
+      drawDetails(shown)));
+  const hash = `#view=${encodeURIComponent(view.a.id)}`;
+  if (location.hash !== hash) history.replaceState(null, '', hash);
+}
+
+function onKey(event) {
+  if (event.ctrlKey || event.metaKey || event.altKey) return;
+  const target = event.target.tagName;
+  if (target === 'SELECT' || target === 'TEXTAREA' || event.target.id === 'settings') return;
+  const actions = {
+    ArrowLeft: () => step(-1), ArrowRight: () => step(1),
+    ArrowUp: () => stepExemplar(-1), ArrowDown: () => stepExemplar(1),
+    f: flip, t: () => redraw(() => { view.tiled = !view.tiled; }),
+    c: () => redraw(() => { view.label = view.label === 'copy map' ? 'picture' : 'copy map'; }),
+  };
+  if (target !== 'BUTTON' && target !== 'A') actions[' '] = flip;
+  const action = actions[event.key];
+  if (!action) return;
+  event.preventDefault();
+  const inStage = document.activeElement?.id === 'stage';
+  action();
+  if (inStage) byId('stage').focus();
+}
+
+function startViewer() {
+  dialog.addEventListener('keydown', onKey);
+  dialog.addEventListener('close', () => {
+    history.replaceState(null, '', location.pathname + location.search);
+    document.querySelector(`#rows [data-id="${CSS.escape(view.a.id)}"]`)?.focus();
+  });
+  const openFromAddress = () => {
+    const found = location.hash.startsWith('#view=') &&
+      subjectById.get(decodeURIComponent(location.hash.slice('#view='.length)));
+    if (found && found !== (dialog.open ? view.a : null)) openViewer(found);
+  };
+  window.addEventListener('hashchange', openFromAddress);
+  openFromAddress();
+}
