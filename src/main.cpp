@@ -22,6 +22,7 @@
 #include "jobs/progress_bar.h"
 #include "jobs/runner.h"
 #include "jobs/score_files.h"
+#include "report/page.h"
 
 namespace {
 
@@ -44,6 +45,8 @@ struct Arguments {
   bool resume = false;
   bool quiet = false;
   std::string baseline;
+  std::string folder;
+  std::vector<std::string> words;  // the command line itself
 };
 
 std::atomic<bool> stop_asked{false};
@@ -102,6 +105,17 @@ bool got_worse(const Baseline& before, const Config& config, const RunOptions& o
   return count_worse(changes) > 0;
 }
 
+// Writes the page of a run; the results are there whatever becomes of it.
+bool show_run(const std::filesystem::path& folder, ProgressBar& bar) {
+  try {
+    bar.message(fmt::format("page: {}", write_page(folder).string()));
+    return true;
+  } catch (const std::exception& error) {
+    bar.complaint(fmt::format("gramloom: no page: {}", first_line(error.what())));
+    return false;
+  }
+}
+
 ExitCode run_command(const Arguments& arguments) {
   keep_large_buffers();
   set_thread_count(arguments.threads);
@@ -114,9 +128,11 @@ ExitCode run_command(const Arguments& arguments) {
   options.only = arguments.only;
   options.resume = arguments.resume;
   options.stop = [] { return stop_asked.load(); };
+  options.command = arguments.words;
   const std::optional<Baseline> before = earlier_run(arguments, options);
   ProgressBar bar(progress_style(arguments.quiet));
   const RunSummary summary = run(config, options, bar);
+  const bool shown = show_run(options.output, bar);
   if (summary.interrupted + summary.left > 0) {
     bar.complaint(fmt::format(
         "gramloom: interrupted, {} of {} jobs are left; --resume goes on",
@@ -129,7 +145,11 @@ ExitCode run_command(const Arguments& arguments) {
     return interrupted;
   }
   const bool worse = before && got_worse(*before, config, options, arguments.quiet);
-  return worse || summary.failed > 0 ? job_failed : all_done;
+  return worse || !shown || summary.failed > 0 ? job_failed : all_done;
+}
+
+ExitCode report_command(const Arguments& arguments) {
+  return print(write_page(arguments.folder).string() + "\n");
 }
 
 ExitCode check_command(const Arguments& arguments) {
@@ -218,6 +238,7 @@ void add_score(CLI::App& app, Arguments& arguments) {
 
 ExitCode dispatch(int argc, char** argv) {
   Arguments arguments;
+  arguments.words.assign(argv, argv + argc);
   CLI::App app("New textures from a small picture of one.", "gramloom");
   app.set_version_flag("--version", fmt::format("gramloom {}", version()));
   app.require_subcommand(1);
@@ -233,6 +254,10 @@ ExitCode dispatch(int argc, char** argv) {
       ->add_option("topic", arguments.topic, "one of methods, networks, patterns, metrics")
       ->check(CLI::IsMember({"methods", "networks", "patterns", "metrics"}));
   add_score(app, arguments);
+  app.add_subcommand("report", "Write the page of a run (again) from what is in its folder")
+      ->add_option("folder", arguments.folder, "folder of a run")
+      ->required()
+      ->type_name("DIR");
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {
@@ -246,6 +271,7 @@ ExitCode dispatch(int argc, char** argv) {
   }
   const std::string command = app.get_subcommands().front()->get_name();
   if (command == "run") return run_command(arguments);
+  if (command == "report") return report_command(arguments);
   if (command == "check") return check_command(arguments);
   if (command == "score") return score_command(arguments);
   return list_command(arguments);

@@ -1,5 +1,6 @@
 #include "jobs/results.h"
 
+#include "jobs/job_files.h"
 #include "jobs/machine.h"
 
 namespace gramloom {
@@ -64,6 +65,14 @@ std::vector<std::string> write_texture(const std::filesystem::path& folder, cons
                 metadata);
   }
   return files;
+}
+
+void write_exemplar(const std::filesystem::path& folder, const ImageFile& exemplar) {
+  const OutputFormat format = output_format(Config(), exemplar.encoding, exemplar.image.channels);
+  const std::string name = "exemplar" + format.extension;
+  write_image(folder / name, exemplar.image, format.encoding);
+  for (const std::string extension : {".png", ".exr", ".tif"})
+    if (extension != format.extension) remove_file(folder / ("exemplar" + extension));
 }
 
 }  // namespace gramloom

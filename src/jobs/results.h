@@ -25,4 +25,7 @@ std::vector<std::string> write_texture(const std::filesystem::path& folder, cons
                                        const Texture& texture, const OutputFormat& format,
                                        const Json& settings);
 
+/// Writes the exemplar of results as "exemplar" + extension in `folder`. Throws Error.
+void write_exemplar(const std::filesystem::path& folder, const ImageFile& exemplar);
+
 }  // namespace gramloom

@@ -1,6 +1,9 @@
 #include "jobs/run_file.h"
 
+#include <fmt/chrono.h>
+
 #include <algorithm>
+#include <ctime>
 
 #include "io/text_file.h"
 #include "jobs/job_files.h"
@@ -35,6 +38,11 @@ bool is_of(const SeedDiversity& diversity, const auto& other) {
   return diversity.exemplar == other.exemplar && diversity.method == other.method;
 }
 
+// "2026-11-22T08:15:00Z"
+std::string now() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+}
+
 JobState job_state(const Config& config, const PlannedJob& planned, const fs::path& output) {
   const MethodEntry& method = config.methods[planned.job.method];
   return {planned.name,     exemplar_name(config, planned.job),
@@ -58,8 +66,10 @@ std::vector<SeedDiversity> read_diversity(const fs::path& run_json) {
   return list;
 }
 
-RunFile::RunFile(const Config& config, const Plan& plan, const fs::path& output) : folder_(output) {
-  head_ = {{"versions", versions_to_json()}, {"machine", machine_to_json()},
+RunFile::RunFile(const Config& config, const Plan& plan, const RunOptions& options)
+    : folder_(options.output) {
+  const fs::path& output = options.output;
+  head_ = {{"date", now()}, {"command", options.command}, {"versions", versions_to_json()}, {"machine", machine_to_json()},
            {"config", config.file.string()}, {"config_text", config.text},
            {"set", config.overrides},        {"settings", config_to_json(config)}};
   for (const auto& planned : plan.jobs) jobs_.push_back(job_state(config, planned, output));

@@ -6,6 +6,7 @@
 
 #include "jobs/config.h"
 #include "jobs/record.h"
+#include "jobs/runner.h"
 #include "jobs/score_sheet.h"
 
 namespace gramloom {
@@ -15,8 +16,8 @@ namespace gramloom {
 /// files are written anew at each change.
 class RunFile {
  public:
-  /// Reads how the jobs stand in `output` and writes the files. Throws Error.
-  RunFile(const Config& config, const Plan& plan, const std::filesystem::path& output);
+  /// Reads how the jobs stand in the output folder and writes the files. Throws Error.
+  RunFile(const Config& config, const Plan& plan, const RunOptions& options);
 
   /// Sets how a job stands. Throws Error when a file cannot be written.
   void set(const std::string& job, const JobRecord& record);

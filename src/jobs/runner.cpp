@@ -5,6 +5,7 @@
 #include "jobs/folder_lock.h"
 #include "jobs/job_files.h"
 #include "jobs/job_scores.h"
+#include "jobs/results.h"
 #include "jobs/run_file.h"
 #include "neural/blas_speed.h"
 
@@ -33,11 +34,12 @@ struct Output {
   FolderLock lock;
   RunFile run_file;
 };
-Output prepare_output(const Config& config, const Plan& plan, const fs::path& output) {
+Output prepare_output(const Config& config, const Plan& plan, const RunOptions& options) {
+  const fs::path& output = options.output;
   try {
     create_folder(output);
     FolderLock lock(output);
-    return {std::move(lock), RunFile(config, plan, output)};
+    return {std::move(lock), RunFile(config, plan, options)};
   } catch (const Error& error) {
     throw ConfigError("--output {}: {}", output.string(), error.what());
   }
@@ -106,6 +108,18 @@ void add_scores(Run& run, const PlannedJob& planned, JobRecord& record, RunFile&
   or_complain(run, [&] { run_file.set(planned.name, record); });
 }
 
+// The exemplar lies beside its results, so that the folder tells the whole story wherever it goes.
+void keep_exemplar(Run& run, const Job& job, std::optional<std::size_t>& kept) {
+  if (job.exemplar == kept || !job.exemplar) return;
+  kept = job.exemplar;
+  if (!run.plan.exemplars[*job.exemplar].error.empty()) return;  // its jobs say so
+  or_complain(run, [&] {
+    const fs::path folder = run.options.output / exemplar_name(run.config, job);
+    create_folder(folder);
+    write_exemplar(folder, exemplar_of(run, job));
+  });
+}
+
 // Does a job, or finds it finished; run.json follows.
 void do_job(Run& run, const PlannedJob& planned, RunFile& run_file, RunSummary& summary) {
   std::optional<JobRecord> record;
@@ -165,13 +179,14 @@ void add_diversity(Run& run, const JobGroup& group, RunFile& run_file, RunSummar
 
 RunSummary run(const Config& config, const RunOptions& options, ProgressBar& bar) {
   const Plan plan = make_plan(config, options.only);
-  Output output = prepare_output(config, plan, options.output);
+  Output output = prepare_output(config, plan, options);
   Run run{config, options, plan, bar, {}, {}};
   const auto count = static_cast<std::size_t>(
       std::count_if(plan.jobs.begin(), plan.jobs.end(), [](const auto& j) { return j.selected; }));
   warn_of_slow_blas(run);
   RunSummary summary;
   std::size_t number = 0;
+  std::optional<std::size_t> kept;  // the exemplar of the last job, once it is copied
   for (const JobGroup& group : groups_of(plan)) {
     for (const PlannedJob* planned : group) {
       if (!planned->selected) continue;
@@ -181,6 +196,7 @@ RunSummary run(const Config& config, const RunOptions& options, ProgressBar& bar
         continue;
       }
       bar.start(planned->name, number, count);
+      keep_exemplar(run, planned->job, kept);
       do_job(run, *planned, output.run_file, summary);
     }
     if (!run.stopped()) add_diversity(run, group, output.run_file, summary);

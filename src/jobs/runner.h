@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "jobs/config.h"
 #include "jobs/progress_bar.h"
@@ -14,6 +15,7 @@ struct RunOptions {
   std::string only;              // pattern of the jobs to do; "": all
   bool resume = false;           // keep finished jobs, go on with unfinished ones
   std::function<bool()> stop;    // true once the user has asked to stop
+  std::vector<std::string> command;  // the command line, for run.json
 };
 
 /// How the jobs of a run went; `left` were not begun because the user asked to stop.
@@ -29,6 +31,7 @@ struct RunSummary {
 /// Does the jobs of a config one after another and leaves on disk, in `output`:
 ///   run.json                         versions, machine, settings, every job's status, diversity
 ///   scores.csv                       a line a job: time, memory, scores
+///   <exemplar>/exemplar.png          the exemplar as the methods saw it (.exr, .tif)
 ///   <exemplar>/<method>/seed<N>.png  the texture (.exr, .tif), its maps as seed<N>_<map>.png
 ///   <exemplar>/<method>/seed<N>.copy_map.png  where each pixel came from (metrics/scores.h)
 ///   <exemplar>/<method>/seed<N>.csv  the trace of an iterative method

@@ -66,15 +66,22 @@ function best(score, values) {
   return score.higher ? Math.max(...there) : Math.min(...there);
 }
 
-/** Numbers of one kind, each with as many decimals as three digits of the largest need. */
-function formatter(values) {
-  const largest = Math.max(...values.filter((value) => value !== null).map(Math.abs), 0);
-  const decimals = largest > 0 ? Math.min(4, Math.max(0, 2 - Math.floor(Math.log10(largest)))) : 0;
-  return (value) => (value === null ? '–' : value.toFixed(decimals).replace('-', '−'));
+/** Decimals that give a middling value of this score three digits. */
+function decimalsOf(score) {
+  const sizes = data.jobs.map((job) => Math.abs(valueOf(job, score.key))).filter((size) => size > 0)
+    .sort((a, b) => a - b);
+  const middle = sizes[Math.floor(sizes.length / 2)] ?? 1;
+  return Math.min(3, Math.max(0, 2 - Math.floor(Math.log10(middle))));
 }
-const formats = new Map(scores.map((score) =>
-  [score.key, formatter(data.jobs.map((job) => valueOf(job, score.key)))]));
-const show = (score, value) => formats.get(score.key)(value);
+const decimals = new Map(scores.map((score) => [score.key, decimalsOf(score)]));
+/** Times span too many decades for one number of decimals: they have three digits each. */
+const duration = (seconds) => seconds >= 100 ? String(Math.round(seconds))
+  : seconds >= 0.001 ? String(Number(seconds.toPrecision(seconds < 0.1 ? 2 : 3))) : seconds > 0 ? '<0.001' : '0';
+function show(score, value) {
+  if (value === null) return '–';
+  if (score.key === 'seconds') return duration(value);
+  return value.toFixed(decimals.get(score.key)).replace('-', '−');
+}
 
 // --- how a method looks in plots --------------------------------------------------------------------
 
@@ -140,6 +147,13 @@ function segments(label, options, value, onChoice) {
         for (const button of event.currentTarget.parentNode.children)
           button.setAttribute('aria-pressed', String(button === event.currentTarget));
       } }, text)));
+}
+
+const ruler = document.createElement('canvas').getContext('2d');
+/** How wide a text is in a plot. */
+function textWidth(text) {
+  ruler.font = `12px ${getComputedStyle(document.body).fontFamily}`;
+  return ruler.measureText(text).width;
 }
 
 /** A button that copies what `text` returns. */

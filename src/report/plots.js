@@ -68,15 +68,22 @@ const empty = (text) => el('p', { class: 'note' }, text);
 
 // --- a score against seconds ----------------------------------------------------------------------------
 
-/** Labels beside points, moved apart from one another. */
-function placeLabels(points, height) {
-  const sorted = [...points].sort((a, b) => a.y - b.y);
-  for (let i = 0; i < sorted.length; ++i) {
-    sorted[i].labelY = sorted[i].y;
-    for (const other of sorted.slice(0, i))
-      if (Math.abs(other.x - sorted[i].x) < 90 && sorted[i].labelY - other.labelY < font + 2)
-        sorted[i].labelY = Math.min(height, other.labelY + font + 2);
-  }
+const overlap = (a, b) => a.x < b.x + b.w && b.x < a.x + a.w && a.y < b.y + b.h && b.y < a.y + a.h;
+
+/** Where each point's label goes: beside, above or below it, clear of other marks and labels. */
+function placeLabels(points, limits) {
+  const taken = points.map(({ x, y }) => ({ x: x - 7, y: y - 7, w: 14, h: 14 }));
+  return points.map(({ x, y, method }) => {
+    const [w, h] = [textWidth(method), font + 2];
+    const places = [[x + 11, y - h / 2], [x - 11 - w, y - h / 2], [x - w / 2, y - h - 9],
+      [x - w / 2, y + 9], [x + 9, y - h - 5], [x + 9, y + 5], [x - 9 - w, y - h - 5], [x - 9 - w, y + 5]];
+    const fits = (box) => box.x >= limits.left && box.x + w <= limits.right &&
+      box.y + h <= limits.bottom && !taken.some((other) => overlap(box, other));
+    const boxes = places.map(([bx, by]) => ({ x: bx, y: by, w, h }));
+    const box = boxes.find(fits) ?? boxes[0];
+    taken.push(box);
+    return box;
+  });
 }
 
 function drawTimePlot() {
@@ -96,19 +103,17 @@ function drawTimePlot() {
     const value = valueOf(job, score.key);
     svg.append(el('g', { class: 'point', onclick: () => openViewer(subjectById.get(job.name)) },
       mark(methodIndex.get(job.method), x(job.seconds), y(value), 3),
-      el('title', {}, `${job.exemplar}, ${jobLabel(job)}: ${show(score, value)} in ${job.seconds.toPrecision(2)} s`)));
+      el('title', {}, `${job.exemplar}, ${jobLabel(job)}: ${show(score, value)} in ${duration(job.seconds)} s`)));
   }
   const points = data.methods.map((method) => ({ method, own: jobs.filter((job) => job.method === method) }))
     .filter(({ own }) => own.length > 0).map(({ method, own }) => ({ method,
       x: x(Math.exp(mean(own.map((job) => Math.log(job.seconds))))),
       y: y(mean(own.map((job) => valueOf(job, score.key)))) }));
-  placeLabels(points, bottom - 2);
-  for (const point of points) {
-    const before = point.x > right - 90;
-    svg.append(mark(methodIndex.get(point.method), point.x, point.y, 6, { class: 'mean' }),
-      points.length <= 16 && el('text', { class: 'label', x: point.x + (before ? -11 : 11), y: point.labelY + 4,
-        'text-anchor': before ? 'end' : 'start' }, point.method));
-  }
+  svg.append(...points.map(({ method, x: px, y: py }) =>
+    mark(methodIndex.get(method), px, py, 6, { class: 'mean' })));
+  if (points.length <= 16)
+    svg.append(...placeLabels(points, { left, right: width, bottom }).map((box, i) =>
+      el('text', { class: 'label', x: box.x, y: box.y + font - 1 }, points[i].method)));
   captioned(id, 'Quality against time.', 'A small mark is one picture, a large one a method’s mean.', svg);
 }
 
@@ -128,8 +133,8 @@ function drawMethodPlot() {
   const zero = Math.min(...all) < 0.5 * Math.max(...all);
   const width = widthOf(id);
   const line = rows.length > 20 ? 18 : Math.max(24, Math.floor(274 / rows.length));
-  const longest = Math.max(...rows.map(({ method }) => method.length));
-  const [left, right, top] = [Math.min(12 + longest * 6.6, width * 0.4), width - 52, 26];
+  const longest = Math.max(...rows.map(({ method }) => textWidth(method)));
+  const [left, right, top] = [Math.min(14 + longest, width * 0.45), width - 58, 26];
   const bottom = top + rows.length * line;
   const x = scaleOf(all, left, right, { zero });
   const svg = frame(width, bottom + 40, `${score.label} by method: mean, smallest and largest`);

@@ -55,7 +55,7 @@ function headCell(key, label, attributes = {}, mark = '') {
     table.column = key;
     drawTable();
     byId('table').querySelector(`[data-column="${CSS.escape(key)}"]`).focus();
-  } }, label, mark && el('span', { class: 'direction' }, ` ${mark}`)));
+  } }, label, mark && el('span', { class: 'direction' }, mark)));
 }
 
 function groupsOf(list) {
@@ -94,10 +94,11 @@ function drawTable() {
   const names = byMethod ? [['method', 'method']]
     : [['exemplar', 'exemplar'], ['method', 'method'], ...(seeds.length > 1 ? [['seed', 'seed']] : [])];
   const bests = new Map(scores.map((score) => [score.key, bestOf(rows, score)]));
+  const same = (score) => new Set(rows.map((row) => show(score, row.values.get(score.key)))).size < 2;
   const cell = (row, score) => {
     const text = show(score, row.values.get(score.key));
     const top = bests.get(score.key).get(row.group);
-    const isBest = top !== null && row.values.get(score.key) !== null && text === show(score, top);
+    const isBest = top !== null && !same(score) && row.values.get(score.key) !== null && text === show(score, top);
     return el('td', { class: isBest ? 'best' : null, 'data-score': score.key }, text,
       isBest && el('span', { class: 'off-screen' }, ' best'));
   };

@@ -204,7 +204,7 @@ function drawDetails(subject) {
   const command = commandOf(job);
   return el('div', { class: 'details' },
     el('p', {}, el('span', { class: job.status === 'done' ? '' : 'bad' }, job.status),
-      job.seconds > 0 && ` in ${job.seconds.toPrecision(3)} s`,
+      job.seconds > 0 && ` in ${duration(job.seconds)} s`,
       job.peak_memory_mb > 0 && `, ${Math.round(job.peak_memory_mb)} MB`,
       `. ${subject.width} × ${subject.height} pixels.`),
     job.error && el('p', { class: 'bad error' }, job.error),
