@@ -39,9 +39,7 @@ bool is_of(const SeedDiversity& diversity, const auto& other) {
 }
 
 // "2026-11-22T08:15:00Z"
-std::string now() {
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
-}
+std::string now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
 JobState job_state(const Config& config, const PlannedJob& planned, const fs::path& output) {
   const MethodEntry& method = config.methods[planned.job.method];
@@ -69,9 +67,14 @@ std::vector<SeedDiversity> read_diversity(const fs::path& run_json) {
 RunFile::RunFile(const Config& config, const Plan& plan, const RunOptions& options)
     : folder_(options.output) {
   const fs::path& output = options.output;
-  head_ = {{"date", now()}, {"command", options.command}, {"versions", versions_to_json()}, {"machine", machine_to_json()},
-           {"config", config.file.string()}, {"config_text", config.text},
-           {"set", config.overrides},        {"settings", config_to_json(config)}};
+  head_ = {{"date", now()},
+           {"command", options.command},
+           {"versions", versions_to_json()},
+           {"machine", machine_to_json()},
+           {"config", config.file.string()},
+           {"config_text", config.text},
+           {"set", config.overrides},
+           {"settings", config_to_json(config)}};
   for (const auto& planned : plan.jobs) jobs_.push_back(job_state(config, planned, output));
   for (const auto& of : read_diversity(output / "run.json"))
     if (std::any_of(jobs_.begin(), jobs_.end(), [&](const auto& job) { return is_of(of, job); }))

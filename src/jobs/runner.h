@@ -11,10 +11,10 @@
 namespace gramloom {
 
 struct RunOptions {
-  std::filesystem::path output;  // the folder of all results
-  std::string only;              // pattern of the jobs to do; "": all
-  bool resume = false;           // keep finished jobs, go on with unfinished ones
-  std::function<bool()> stop;    // true once the user has asked to stop
+  std::filesystem::path output;      // the folder of all results
+  std::string only;                  // pattern of the jobs to do; "": all
+  bool resume = false;               // keep finished jobs, go on with unfinished ones
+  std::function<bool()> stop;        // true once the user has asked to stop
   std::vector<std::string> command;  // the command line, for run.json
 };
 

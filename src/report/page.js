@@ -17,7 +17,7 @@ function el(tag, attributes = {}, ...children) {
 }
 
 const byId = (id) => document.getElementById(id);
-const fill = (id, ...children) => byId(id).replaceChildren(...children.flat().filter(Boolean));
+const fill = (id, ...children) => byId(id).replaceChildren(...children.flat(3).filter(Boolean));
 /** A path in the run's folder as an address: names may hold "#", "%" and spaces. */
 const address = (path) => path.split('/').map(encodeURIComponent).join('/');
 const plural = (n, one, many = one + 's') => `${n} ${n === 1 ? one : many}`;

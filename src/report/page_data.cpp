@@ -60,8 +60,8 @@ Json path_in_config(const Json& run, const std::string& name) {
 }
 
 Source read_source(const RunOnDisk& run, const std::string& name, Json& trouble) {
-  Source source{
-      {{"name", name}, {"picture", nullptr}, {"image", path_in_config(run.run, name)}}, 1};
+  Source source{{{"name", name}, {"picture", nullptr}, {"image", path_in_config(run.run, name)}},
+                1};
   const std::string file = exemplar_file(run.folder, name);
   if (file.empty()) return source;
   try {
@@ -106,14 +106,14 @@ Json file_in_folder(const RunOnDisk& run, const Json& name) {
   std::error_code ignored;
   const bool inside = !path.empty() && path.is_relative() && *path.begin() != "..";
   return inside && fs::is_regular_file(run.folder / path, ignored) ? Json(path.generic_string())
-                                                                  : Json(nullptr);
+                                                                   : Json(nullptr);
 }
 
 Json job_to_json(const RunOnDisk& run, const JobOnDisk& job, double white, Json& trouble) {
   Json shown{{"name", job.name}};
-  shown.update(part(job.record,
-                    {"exemplar", "method", "kind", "seed", "width", "height", "status", "error",
-                     "seconds", "peak_memory_mb", "settings", "metrics", "score_error"}));
+  shown.update(
+      part(job.record, {"exemplar", "method", "kind", "seed", "width", "height", "status", "error",
+                        "seconds", "peak_memory_mb", "settings", "metrics", "score_error"}));
   shown["pictures"] = pictures_of(run, job, white, trouble);
   shown["copy_map"] = file_in_folder(run, job.record.value("copy_map", Json()));
   shown["trace"] = job.trace.rows.empty() ? Json() : thin_trace(job.trace, trace_points);

@@ -40,8 +40,8 @@ double white_of(const ImageFile& file) {
   if (type != PixelType::half && type != PixelType::float32) return 1;
   std::vector<float> values = file.image.pixels;
   if (values.empty()) return 1;
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(
-                                          0.995 * static_cast<double>(values.size() - 1));
+  const auto place =
+      values.begin() + static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), place, values.end());
   return std::max(1.0, static_cast<double>(*place));
 }
@@ -54,8 +54,7 @@ Image preview(const ImageFile& file, double white) {
   const auto count = static_cast<std::size_t>(image.channels);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     if (alpha && i % count == count - 1) continue;
-    const float v =
-        std::clamp(image.pixels[i] / static_cast<float>(white), 0.0f, 1.0f);
+    const float v = std::clamp(image.pixels[i] / static_cast<float>(white), 0.0f, 1.0f);
     image.pixels[i] = linear ? srgb_curve(v) : v;
   }
   return image;
