@@ -82,6 +82,8 @@ RunOnDisk read_run(const fs::path& folder) {
       run.jobs.push_back(read_job(folder, name, state));
   } catch (const Json::exception&) {
     throw Error("{}: is not a run's", file.string());
+  } catch (const Error& error) {
+    throw Error("{}: {}", file.string(), error.what());
   }
   return run;
 }

@@ -4,8 +4,9 @@ function summarySentence() {
   const count = (status) => data.jobs.filter((job) => job.status === status).length;
   const states = ['done', 'failed', 'interrupted', 'waiting']
     .map((status) => [status, count(status)]).filter(([, n]) => n > 0);
-  const exemplars = data.exemplars.length;
-  const what = `${plural(data.methods.length, 'method')}, ${plural(exemplars, 'exemplar')}, ` +
+  const exemplars = data.exemplars.filter(({ image }) => image !== null).length;
+  const what = `${plural(data.methods.length, 'method')}, ` +
+    (exemplars > 0 ? `${plural(exemplars, 'exemplar')}, ` : '') +
     `${plural(seeds.length, 'seed')}: ${plural(data.jobs.length, 'job')}`;
   if (states.length === 1) return [`${what}, ${data.jobs.length > 1 ? 'all ' : ''}${states[0][0]}.`];
   return [`${what}. `, states.map(([status, n], i) => [i ? ', ' : '',

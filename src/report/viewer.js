@@ -209,6 +209,9 @@ function drawDetails(subject) {
       `. ${subject.width} × ${subject.height} pixels.`),
     job.error && el('p', { class: 'bad error' }, job.error),
     job.score_error && el('p', { class: 'bad error' }, `not scored: ${job.score_error}`),
+    view.label === 'copy map' && job.copy_map && el('p', { class: 'small' },
+      'The copy map: where in the exemplar each pixel came from. Red grows to the right, green downwards, ' +
+      'blue against both. A patch of smooth colour is a piece taken over whole; copied blocks are at full brightness.'),
     scoreList(job),
     el('h3', {}, 'Make it again'),
     el('div', { class: 'code' }, el('code', { id: 'command' }, command),

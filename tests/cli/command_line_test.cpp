@@ -65,7 +65,7 @@ TEST_F(CommandLine, RunDoesEveryJob) {
   const Outcome outcome = run({"run", "c.toml"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(outcome.output, "");
-  EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 4) << outcome.errors;
+  EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 5) << outcome.errors;
   EXPECT_EQ(outcome.errors.find('\r'), std::string::npos) << "a bar where no terminal is";
   for (const std::string job : {"e/q/seed1", "e/q/seed2", "procedural/n/seed1"}) {
     ASSERT_TRUE(record(job)) << job;
@@ -150,12 +150,39 @@ TEST_F(CommandLine, AnOutputThatCannotBeWritten) {
 }
 
 TEST_F(CommandLine, AFileSizeLimitIsAFailedJobAndNoCrash) {
-  // 512 or 1024 bytes a block, by shell: enough for the records, not for the picture.
+  // 512 or 1024 bytes a block, by shell: enough for the records and the page, not for the picture.
   const Outcome outcome = shell(
-      folder_, "ulimit -f 16; $GRAMLOOM run c.toml --only 'e/q/seed1' --set size=200 --quiet");
+      folder_, "ulimit -f 400; $GRAMLOOM run c.toml --only 'e/q/seed1' --set size=1000 --quiet");
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
   EXPECT_NE(outcome.errors.find("cannot write: File too large"), std::string::npos);
+}
+
+TEST_F(CommandLine, APageThatCannotBeWrittenLosesNoResult) {
+  const Outcome outcome =
+      shell(folder_, "ulimit -f 32; $GRAMLOOM run c.toml --only 'e/q/seed1' --quiet");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("no page: "), std::string::npos) << outcome.errors;
+  EXPECT_EQ(record("e/q/seed1")->status, Status::done);
+}
+
+TEST_F(CommandLine, ReportWritesThePageOfARunAgain) {
+  run({"run", "c.toml", "--quiet"});
+  const std::string page = file("out/c/index.html");
+  EXPECT_NE(page.find("e/q/seed2"), std::string::npos);
+  EXPECT_NO_THROW(read_image(folder_ / "out/c/e/exemplar.png"));
+  fs::rename(folder_ / "out/c", folder_ / "elsewhere");
+  fs::remove(folder_ / "elsewhere/index.html");
+  const Outcome outcome = run({"report", "elsewhere"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(outcome.output, "elsewhere/index.html\n");
+  EXPECT_TRUE(file("elsewhere/index.html") == page) << "all of it is in the folder";
+  for (const std::string folder : {".", "nowhere", "e.png"}) {
+    const Outcome none = run({"report", folder});
+    EXPECT_EQ(none.exit_code, 1) << folder;
+    EXPECT_TRUE(is_one_line(none.errors)) << none.errors;
+  }
 }
 
 TEST_F(CommandLine, ListNamesMethodsPatternsAndTheirParameters) {

@@ -1,0 +1,191 @@
+#include "report/page_data.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "io/image_file.h"
+#include "io/temp_folder.h"
+#include "io/text_file.h"
+#include "metrics/scores.h"
+#include "report/page.h"
+
+namespace gramloom {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+// A folder as a run leaves it, with as little in it as a test needs.
+class PageData : public TempFolder {
+ protected:
+  void write(const std::string& file, const Json& json) const {
+    fs::create_directories((path() / file).parent_path());
+    write_text(path() / file, json.dump());
+  }
+  void write_run(const Json& jobs, const Json& more = Json::object()) const {
+    Json run{{"config", "configs/walls.toml"}, {"jobs", jobs}};
+    run.update(more);
+    write("run.json", run);
+  }
+  void write_job(const std::string& name, const Json& more = Json::object()) const {
+    const fs::path parts(name);
+    Json record{{"exemplar", parts.begin()->string()},
+                {"method", std::next(parts.begin())->string()},
+                {"kind", "quilting"},
+                {"seed", 1},
+                {"width", 4},
+                {"height", 3},
+                {"status", "done"},
+                {"error", ""},
+                {"seconds", 0.5},
+                {"peak_memory_mb", 10},
+                {"settings", Json::object()},
+                {"metrics", {{"stsim2", 0.9}}},
+                {"files", {parts.filename().string() + ".png"}}};
+    record.update(more);
+    write(name + ".json", record);
+    write_image(path() / (name + ".png"), Image(4, 3, 3, 0.5f), {});
+  }
+  Json read() const { return page_data(read_run(path())); }
+  std::string error() const {
+    try {
+      write_page(path());
+    } catch (const Error& thrown) {
+      return thrown.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(PageData, HoldsWhatTheFolderHolds) {
+  write_run({{"brick/q/seed1", {{"status", "done"}}}},
+            {{"set", {"size=4"}},
+             {"settings", {{"exemplar", {{{"name", "brick"}, {"image", "../data/brick.png"}}}}}},
+             {"diversity", {{{"exemplar", "brick"}, {"method", "q"}, {"value", 0.5}}}}});
+  write_job("brick/q/seed1",
+            {{"files", {"seed1.png", "seed1_height.png"}}, {"copy_map", "brick/q/map.png"}});
+  for (const std::string name :
+       {"brick/q/seed1_height.png", "brick/q/map.png", "brick/exemplar.png"})
+    write_image(path() / name, Image(5, 3, 3), {});
+  write_text(path() / "brick/q/seed1.csv", "step,evaluations,seconds,loss\n1,2,0.5,9\n2,4,1.5,3\n");
+  const Json data = read();
+  EXPECT_EQ(data["title"], "walls");
+  EXPECT_EQ(data["run"]["set"], Json({"size=4"}));
+  EXPECT_EQ(data["methods"], Json({"q"}));
+  EXPECT_EQ(data["diversity"][0]["value"], 0.5);
+  EXPECT_EQ(data["trouble"], Json::array());
+  EXPECT_EQ(data["exemplars"][0]["image"], "../data/brick.png");
+  EXPECT_EQ(data["exemplars"][0]["picture"],
+            (Json{{"file", "brick/exemplar.png"}, {"width", 5}, {"height", 3}}));
+  const Json& job = data["jobs"][0];
+  EXPECT_EQ(job["name"], "brick/q/seed1");
+  EXPECT_EQ(job["pictures"][0], (Json{{"label", "picture"}, {"file", "brick/q/seed1.png"}}));
+  EXPECT_EQ(job["pictures"][1], (Json{{"label", "height"}, {"file", "brick/q/seed1_height.png"}}));
+  EXPECT_EQ(job["copy_map"], "brick/q/map.png");
+  EXPECT_EQ(job["metrics"]["stsim2"], 0.9);
+  EXPECT_EQ(job["trace"]["loss"], Json({9.0, 3.0}));
+}
+
+TEST_F(PageData, HasEveryMetricWithItsDirection) {
+  write_run(Json::object());
+  const Json list = read()["metrics"];
+  ASSERT_EQ(list.size(), metrics().size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    EXPECT_EQ(list[i]["name"], metrics()[i].name);
+    EXPECT_EQ(list[i]["higher_is_better"], metrics()[i].higher_is_better);
+  }
+}
+
+TEST_F(PageData, JobsThatDidNotComeOutHaveTheirPlace) {
+  write_run({{"e/waiting/seed1", {{"status", "waiting"}}},
+             {"e/failed/seed1", {{"status", "failed"}}},
+             {"e/garbage/seed1", {{"status", "done"}}},
+             {"e/half/seed1", {{"status", "done"}}},
+             {"e/lost/seed1", {{"status", "done"}}}});
+  write_job("e/failed/seed1", {{"status", "failed"}, {"error", "no"}, {"files", Json::array()}});
+  write_job("e/garbage/seed1");
+  write_text(path() / "e/garbage/seed1.json", "{\"exemplar\": ");
+  write_job("e/half/seed1", {{"method", 3}});
+  write_job("e/lost/seed1");
+  fs::remove(path() / "e/lost/seed1.png");
+  const Json data = read();
+  EXPECT_EQ(data["jobs"][0]["status"], "waiting");
+  EXPECT_EQ(data["jobs"][1]["error"], "no");
+  for (const std::size_t broken : {2u, 3u}) {
+    EXPECT_EQ(data["jobs"][broken]["status"], "failed");
+    EXPECT_NE(data["jobs"][broken]["error"], "");
+  }
+  EXPECT_EQ(data["jobs"][4]["pictures"], Json::array());
+  ASSERT_EQ(data["trouble"].size(), 1u);
+  EXPECT_THAT(data["trouble"][0].get<std::string>(), HasSubstr("e/lost/seed1.png"));
+  EXPECT_EQ(data["exemplars"][0]["picture"], Json());
+  EXPECT_EQ(error(), "") << "a page all the same";
+}
+
+TEST_F(PageData, NoNameLeadsOutOfTheFolder) {
+  write_image(path() / "secret.png", Image(2, 2, 3), {});
+  write_run({{"e/q/seed1", {{"status", "done"}}}});
+  write_job("e/q/seed1", {{"files", {"../../secret.png"}}, {"copy_map", "../secret.png"}});
+  const Json data = read();
+  EXPECT_EQ(data["jobs"][0]["pictures"], Json::array());
+  EXPECT_EQ(data["jobs"][0]["copy_map"], Json());
+  for (const std::string name : {"../q/seed1", "/etc/q/seed1", "e/q", "e/q/x", "e/q/seed"}) {
+    write_run({{name, {{"status", "done"}}}});
+    EXPECT_NE(error(), "") << name;
+  }
+}
+
+TEST_F(PageData, AFolderOfNoRunIsAnError) {
+  EXPECT_THAT(error(), HasSubstr("there is no run.json"));
+  for (const std::string text : {"", "[]", "{}", "{\"jobs\": 3}", "nonsense"}) {
+    write_text(path() / "run.json", text);
+    EXPECT_THAT(error(), HasSubstr("run.json")) << text;
+  }
+  EXPECT_FALSE(fs::exists(path() / "index.html"));
+}
+
+TEST_F(PageData, ALongTraceIsThinnedOutAndKeepsItsEnds) {
+  Trace trace;
+  for (int i = 1; i <= 1000; ++i) trace.rows.push_back({i, i, i * 0.5, 1.0 / i, {}});
+  const Json thin = thin_trace(trace, 100);
+  ASSERT_EQ(thin["steps"].size(), 100u);
+  EXPECT_EQ(thin["steps"].front(), 1);
+  EXPECT_EQ(thin["steps"].back(), 1000);
+  EXPECT_EQ(thin["seconds"].back(), 500.0);
+  EXPECT_EQ(thin_trace(trace, 2000)["loss"].size(), 1000u);
+  trace.rows.resize(1);
+  EXPECT_EQ(thin_trace(trace, 100)["steps"], Json({1}));
+}
+
+// The data's text between its script tags.
+std::string data_block(const std::string& html) {
+  const std::string begin = "id=\"data\">";
+  const auto start = html.find(begin) + begin.size();
+  return html.substr(start, html.find("</script>", start) - start);
+}
+
+TEST(PageHtml, DataStaysDataWhateverItHolds) {
+  for (const std::string text :
+       {"</script><script>alert(1)</script>", "<!-- <script>", "/*data*/ \" ' \\ \n \t &amp;",
+        "\xE2\x80\xA8 \xE7\xA0\x82", "]]>", "/*scripts*/"}) {
+    const Json data{{text, {text, nullptr, 1.5}}};
+    const std::string block = data_block(page_html(data));
+    EXPECT_EQ(block.find('<'), std::string::npos);
+    EXPECT_EQ(Json::parse(block), data) << text;
+  }
+  EXPECT_NO_THROW(page_html({{"path", "bytes \xFF that are no UTF-8"}}));
+}
+
+TEST(PageHtml, NeedsNoNetworkAndNoOtherFile) {
+  const std::string html = page_html(Json::object());
+  EXPECT_EQ(html.find("/*style*/"), std::string::npos);
+  EXPECT_EQ(html.find("/*scripts*/"), std::string::npos);
+  EXPECT_EQ(html.find("<link rel=\"stylesheet"), std::string::npos);
+  EXPECT_EQ(html.find("<script src"), std::string::npos);
+  EXPECT_EQ(html.find("@import"), std::string::npos);
+  EXPECT_EQ(html.find("https://"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gramloom
