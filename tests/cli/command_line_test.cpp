@@ -123,7 +123,7 @@ TEST_F(CommandLine, AJobThatCannotFitIsRefusedAndTheOthersAreDone) {
   const Outcome check = run({"check", "big.toml", "--set", "size=65536"});
   EXPECT_EQ(check.exit_code, 0);
   EXPECT_NE(check.output.find("would fit"), std::string::npos) << check.output;
-  const Outcome outcome = run({"run", "big.toml", "--set", "size=65536"});
+  const Outcome outcome = run({"run", "big.toml", "--set", "size=65536", "--quiet"});
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
   EXPECT_NE(record("procedural/n/seed1", "out/big")->error.find("would fit"), std::string::npos);
