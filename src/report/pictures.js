@@ -90,7 +90,7 @@ function applyScale() {
 function drawRows() {
   const score = chosenScore();
   const help = score && [`Under each picture: ${score.label}, ${direction(score)}; the best of a row is bold. `,
-    el('a', { href: `#score-${score.key}` }, 'What fools it'), '. '];
+    score.fooled_by && [el('a', { href: `#score-${score.key}` }, 'What fools it'), '. ']];
   fill('pictures-note', 'All at the same scale. A click enlarges, flips between any two, and tiles. ',
     help ?? '');
   fill('rows', shownExemplars().map(rowOf));

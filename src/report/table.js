@@ -83,7 +83,8 @@ function drawTable() {
   const byMethod = table.rows === 'methods';
   const rows = sortRows(byMethod ? meanRows() : jobRows());
   const several = byMethod && rows.some((row) => row.jobs.length > 1);
-  fill('scores-note', byMethod
+  fill('scores-note', scores.every((score) => score.group === 'cost') && 'This run has no scores, only costs. ',
+  byMethod
     ? [several ? `Each value is the mean over ${chosen.exemplar ? 'seeds' : 'all exemplars shown'}. ` : '',
       'The best of each column is marked. An arrow says which way is better. ']
     : 'The best of each column is marked, among the results of one exemplar. ',

@@ -118,6 +118,10 @@ function redraw(change) {
 function drawControls() {
   const labels = [...new Set([view.a, view.b].filter(Boolean)
     .flatMap((subject) => subject.views.map(({ label }) => label)))];
+  const setLabel = (label) => {
+    view.label = label;
+    view.showB &&= view.b.views.some((own) => own.label === label);
+  };
   const button = (text, on, hint, change) => el('button', { type: 'button', title: hint,
     'data-keep': text, 'aria-pressed': String(on), onclick: () => redraw(change) }, text);
   return el('div', { class: 'viewer-controls' },
@@ -128,9 +132,10 @@ function drawControls() {
       view.b && pairChoice('B', view.b, (subject) => redraw(() => { view.b = subject; view.showB = true; }))),
     el('div', { class: 'segments', role: 'group', 'aria-label': 'What of it' },
       button('2 × 2', view.tiled, 't', () => { view.tiled = !view.tiled; }),
-      labels.length > 1 && labels.map((label) => button(label, label === view.label,
-        label === 'copy map' ? 'c: where in the exemplar each pixel came from' : null,
-        () => { view.label = label; view.showB &&= view.b.views.some((own) => own.label === label); }))),
+      labels.length > 1 && labels.length <= 5 && labels.map((label) => button(label, label === view.label,
+        label === 'copy map' ? 'c: where in the exemplar each pixel came from' : null, () => setLabel(label)))),
+    labels.length > 5 && choice('Show', labels.map((label) => [label, label]), view.label,
+      (label) => redraw(() => setLabel(label))),
     el('p', { class: 'keys' }, '← → pictures · ↑ ↓ exemplars · space flips · t 2 × 2 · c copy map · esc closes'));
 }
 
