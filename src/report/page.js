@@ -41,7 +41,8 @@ const unknown = new Set(data.jobs.flatMap((job) => Object.keys(job.metrics ?? {}
 /** Every score that some job has: {key, label, group, higher: true, false or null, …}. */
 const scores = [
   ...data.metrics.map((metric) => ({
-    ...metric, key: metric.name, label: metric.name.replaceAll('_', ' '),
+    ...metric, key: metric.name,
+    label: metric.name.replaceAll('_', ' ').replace('autocorr', 'auto\u00adcorr'),
     higher: metric.higher_is_better,
   })),
   ...[...unknown].map((name) => ({ key: name, label: name, group: 'other', higher: null,
