@@ -1,15 +1,20 @@
 # Makes page_template.h: page.html with its style and scripts inside, as a text in C++.
-#   cmake -DHTML=page.html -DCSS=page.css -DSCRIPTS=a.js,b.js -DOUTPUT=page_template.h -P embed.cmake
-file(READ ${HTML} page)
-file(READ ${CSS} style)
-string(REPLACE "/*style*/" "${style}" page "${page}")
-string(REPLACE "," ";" scripts "${SCRIPTS}")
-set(all "")
-foreach(script IN LISTS scripts)
-  file(READ ${script} text)
-  string(APPEND all "${text}")
+#   cmake -DFOLDER=. -DFILES=page.html,page.css,a.js,b.js -DOUTPUT=page_template.h -P embed.cmake
+string(REPLACE "," ";" files "${FILES}")
+set(style "")
+set(scripts "")
+foreach(file IN LISTS files)
+  file(READ "${FOLDER}/${file}" text)
+  if(file MATCHES "html$")
+    set(page "${text}")
+  elseif(file MATCHES "css$")
+    string(APPEND style "${text}")
+  else()
+    string(APPEND scripts "${text}")
+  endif()
 endforeach()
-string(REPLACE "/*scripts*/" "${all}" page "${page}")
+string(REPLACE "/*style*/" "${style}" page "${page}")
+string(REPLACE "/*scripts*/" "${scripts}" page "${page}")
 
 # A compiler may limit a literal's length; neighbours are joined.
 set(literals "")

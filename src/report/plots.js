@@ -30,8 +30,9 @@ function tickText(tick, log) {
 /** An axis over `values`, with a little room: a function from value to pixel, with its limits. */
 function scaleOf(values, from, to, { log = false, zero = false } = {}) {
   const there = values.filter((value) => value !== null && (!log || value > 0));
-  let low = Math.min(...there, ...(zero && !log ? [0] : []));
-  let high = Math.max(...there, ...(zero && !log ? [0] : []));
+  // Not Math.min(...there): a call takes only so many arguments, and traces have many points.
+  let low = there.reduce((a, b) => Math.min(a, b), zero && !log ? 0 : Infinity);
+  let high = there.reduce((a, b) => Math.max(a, b), zero && !log ? 0 : -Infinity);
   if (there.length === 0) [low, high] = log ? [0.1, 1] : [0, 1];
   if (log) { low /= 1.25; high *= 1.25; } else {
     const room = (high - low || Math.abs(high) || 1) * 0.05;

@@ -149,88 +149,11 @@ function drawStrip() {
       : el('span', {}, '×'))));
 }
 
-// --- what is known of the picture -----------------------------------------------------------------------
-
-function rankText(job, score) {
-  const values = data.jobs.filter((other) => other.exemplar === job.exemplar)
-    .map((other) => valueOf(other, score.key)).filter((value) => value !== null);
-  if (score.higher === null || values.length < 2) return '';
-  const value = valueOf(job, score.key);
-  return `${1 + values.filter((other) => compare(score, other, value) < 0).length} of ${values.length}`;
-}
-
-function scoreList(job) {
-  const there = scores.filter((score) => valueOf(job, score.key) !== null);
-  if (there.length === 0) return null;
-  return el('table', { class: 'own-scores' },
-    el('caption', {}, 'Scores, and their rank among the results of this exemplar'),
-    el('tbody', {}, there.map((score) => el('tr', {},
-      el('th', { scope: 'row' }, score.label, ' ',
-        el('span', { class: 'direction', title: direction(score) }, arrow(score))),
-      el('td', {}, show(score, valueOf(job, score.key))),
-      el('td', { class: 'rank' }, rankText(job, score))))));
-}
-
-/** A value as TOML. Quoted texts are the same in TOML and JSON, but for U+007F. */
-function toToml(value) {
-  if (value === 'inf' || value === '-inf') return value;
-  if (Array.isArray(value)) return `[${value.map(toToml).join(', ')}]`;
-  if (typeof value === 'string') return JSON.stringify(value).replaceAll('\x7f', '\\u007F');
-  return String(value);
-}
-
-/** The job's resolved settings as a config that makes this picture and no other. */
-function configOf(job) {
-  const { method = {}, exemplar, seed, files, ...rest } = job.settings ?? {};
-  const lines = (object) => Object.entries(object).filter(([, value]) => value !== null)
-    .map(([key, value]) => `${key} = ${toToml(value)}`);
-  const source = data.exemplars.find(({ name }) => name === job.exemplar);
-  return [`seeds = [${seed ?? job.seed}]`, ...lines(rest),
-    ...(exemplar ? ['', '[[exemplar]]', `name = ${toToml(job.exemplar)}`,
-      ...lines({ image: source?.image ?? exemplar.image, max_side: exemplar.max_side ?? null })] : []),
-    '', '[[method]]', `name = ${toToml(job.method)}`, ...lines(method)].join('\n') + '\n';
-}
-
-/** The command that makes this picture again. Only neural results depend on the threads. */
-function commandOf(job) {
-  const { command = [], config = 'CONFIG', set = [], machine = {} } = data.run;
-  return [command[0] ?? 'gramloom', 'run', config, '--only', job.name,
-    ...set.flatMap((option) => ['--set', option]),
-    ...(job.kind === 'neural' && machine.threads ? ['--threads', String(machine.threads)] : [])]
-    .map(quoted).join(' ');
-}
-
-function drawDetails(subject) {
-  const job = subject.job;
-  if (!job) return el('div', { class: 'details' },
-    el('p', {}, `${subject.width} × ${subject.height} pixels, as the methods saw it.`),
-    el('p', {}, el('a', { href: address(subject.views[0].file) }, 'the picture')));
-  const settings = configOf(job);
-  const command = commandOf(job);
-  return el('div', { class: 'details' },
-    el('p', {}, el('span', { class: job.status === 'done' ? '' : 'bad' }, job.status),
-      job.seconds > 0 && ` in ${duration(job.seconds)} s`,
-      job.peak_memory_mb > 0 && `, ${Math.round(job.peak_memory_mb)} MB`,
-      `. ${subject.width} × ${subject.height} pixels.`),
-    job.error && el('p', { class: 'bad error' }, job.error),
-    job.score_error && el('p', { class: 'bad error' }, `not scored: ${job.score_error}`),
-    view.label === 'copy map' && job.copy_map && el('p', { class: 'small' },
-      'The copy map: where in the exemplar each pixel came from. Red grows to the right, green downwards, ' +
-      'blue against both. A patch of smooth colour is a piece taken over whole; copied blocks are at full brightness.'),
-    scoreList(job),
-    el('h3', {}, 'Make it again'),
-    el('div', { class: 'code' }, el('code', { id: 'command' }, command),
-      copyButton(() => command, 'Copy the command')),
-    job.settings && [el('h3', {}, 'Its settings, as a config'),
-      el('div', { class: 'code' }, el('pre', { id: 'settings', tabindex: '0' }, settings),
-        copyButton(() => settings, 'Copy the settings')),
-      data.run.config && el('p', { class: 'small' }, 'Paths are relative to the folder of ',
-        el('code', {}, data.run.config), '.')],
-    el('p', { class: 'small' }, 'Files: ',
-      [[subject.views[0]?.file, 'picture'], [`${job.name}.json`, 'record'],
-        [job.trace && `${job.name}.csv`, 'losses']].filter(([file, text]) => file &&
-          (text !== 'record' || job.status !== 'waiting'))
-        .map(([file, text], i) => [i ? ', ' : '', el('a', { href: address(file) }, text)])));
+/** The address leads back to this picture, where the browser lets pages on disk have one. */
+function setAddress(hash) {
+  try {
+    if (location.hash !== hash) history.replaceState(null, '', hash || location.pathname);
+  } catch { /* not here */ }
 }
 
 function drawViewer() {
@@ -242,8 +165,7 @@ function drawViewer() {
     el('div', { class: 'viewer-body' },
       el('div', { class: 'viewer-left' }, drawStage(), drawControls(), drawStrip()),
       drawDetails(shown)));
-  const hash = `#view=${encodeURIComponent(view.a.id)}`;
-  if (location.hash !== hash) history.replaceState(null, '', hash);
+  setAddress(`#view=${encodeURIComponent(view.a.id)}`);
 }
 
 function onKey(event) {
@@ -268,7 +190,7 @@ function onKey(event) {
 function startViewer() {
   dialog.addEventListener('keydown', onKey);
   dialog.addEventListener('close', () => {
-    history.replaceState(null, '', location.pathname + location.search);
+    setAddress('');
     document.querySelector(`#rows [data-id="${CSS.escape(view.a.id)}"]`)?.focus();
   });
   const openFromAddress = () => {
