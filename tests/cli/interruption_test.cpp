@@ -182,7 +182,8 @@ TEST_F(Interruption, ADiskThatIsFullFailsTheJobInOneLine) {
   const Outcome outcome =
       shell(folder_, "trap '' XFSZ; ulimit -f 64; $GRAMLOOM run c.toml --quiet --set size=400");
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 4) << outcome.errors;
+  EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 5)
+      << "four jobs and the page: " << outcome.errors;
   EXPECT_EQ(record("e/q/seed1")->status, Status::failed);
   EXPECT_FALSE(fs::exists(folder_ / "out/c/e/q/seed1.png"));
 }
