@@ -45,9 +45,7 @@ std::string allowed_values(const Range& range) {
     return "a text";
   } else {
     static_assert(is_list<T>, "a parameter has a type that configs do not know");
-    if constexpr (std::is_same_v<element_t<T>, std::string>) return "a list of texts";
-    return (integer ? "a list of whole numbers" : "a list of numbers") +
-           (after.empty() ? "" : ", each " + limits);
+    return allowed_values<element_t<T>>(range) + ", or a list of these";
   }
 }
 

@@ -58,10 +58,9 @@ std::filesystem::path read_path(const toml::node& node, const Slot& slot,
                                 const std::string& allowed);
 
 template <class T>
-T read_value(const toml::node& node, const Slot& slot) {
-  const std::string allowed = allowed_values<T>(slot.range);
+T read_value(const toml::node& node, const Slot& slot, const std::string& allowed) {
   if constexpr (is_optional<T>) {
-    return read_value<typename T::value_type>(node, slot);
+    return read_value<typename T::value_type>(node, slot, allowed);
   } else if constexpr (std::is_same_v<T, bool>) {
     if (!node.is_boolean()) wrong_type(node, slot, allowed);
     return *node.value<bool>();
@@ -74,7 +73,7 @@ T read_value(const toml::node& node, const Slot& slot) {
       const int side = static_cast<int>(read_integer(node, slot, allowed));
       return {side, side};
     }
-    const auto sides = read_value<std::vector<int>>(node, slot);
+    const auto sides = read_value<std::vector<int>>(node, slot, allowed);
     if (sides.size() != 2)
       fail(slot.region, "'{}' has {} numbers, allowed is {}", slot.key, sides.size(), allowed);
     return {sides[0], sides[1]};
@@ -87,10 +86,12 @@ T read_value(const toml::node& node, const Slot& slot) {
   } else if constexpr (std::is_same_v<T, std::string>) {
     return read_string(node, slot, allowed);
   } else {
-    if (!node.is_array()) wrong_type(node, slot, allowed);
+    using Element = element_t<T>;
+    if (!node.is_array()) return {read_value<Element>(node, slot, allowed)};
     T list;
     for (const auto& element : *node.as_array())
-      list.push_back(read_value<element_t<T>>(element, {slot.key, slot.range, element.source()}));
+      list.push_back(read_value<Element>(element, {slot.key, slot.range, element.source()},
+                                         allowed_values<Element>(slot.range)));
     return list;
   }
 }
@@ -104,15 +105,23 @@ std::vector<std::string> key_names(std::vector<std::string> others = {}) {
   return others;
 }
 
+/// `params` with what `table` says for those of its fields whose names are `wanted`.
+template <class Params, class Wanted>
+void read_fields_if(Params& params, const toml::table& table, Wanted&& wanted) {
+  for_each_field<Params>([&](const auto& field) {
+    using T = typename std::decay_t<decltype(field)>::value_type;
+    if (!wanted(field.name)) return;
+    if (const toml::node* node = table.get(field.name))
+      params.*field.member =
+          detail::read_value<T>(*node, {field.name, field.range, key_region(table, field.name)},
+                                allowed_values<T>(field.range));
+  });
+}
+
 /// `params` with what `table` says for its fields; keys that are no field are not looked at.
 template <class Params>
 void read_fields(Params& params, const toml::table& table) {
-  for_each_field<Params>([&](const auto& field) {
-    using T = typename std::decay_t<decltype(field)>::value_type;
-    if (const toml::node* node = table.get(field.name))
-      params.*field.member =
-          detail::read_value<T>(*node, {field.name, field.range, key_region(table, field.name)});
-  });
+  read_fields_if(params, table, [](std::string_view) { return true; });
 }
 
 /// The text under `key`, which must be there and not empty.

@@ -24,6 +24,10 @@ Method default_method(const toml::table& table) {
   Method method;
   with_alternative<Method>(kind, [&]<class Params>(std::type_identity<Params>) {
     Params params;
+    if constexpr (HasPresets<Params>) {
+      read_fields_if(params, table, [](std::string_view name) { return name == "preset"; });
+      params = with_preset(params.preset);
+    }
     if constexpr (HasVariant<Params>) choose_texture(params, table);
     method = params;
   });

@@ -40,6 +40,12 @@ concept HasVariant = requires {
   Params::variant_key;
 };
 
+/// A method with complete settings to start from, chosen by a word under the key `preset`.
+template <class Params>
+concept HasPresets = requires(const Params& params) {
+  with_preset(params.preset);
+};
+
 std::string_view kind_of(const Method& method);
 bool needs_exemplar(const Method& method);
 

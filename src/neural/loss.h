@@ -1,34 +1,52 @@
 #pragma once
 
+#include <optional>
+
 #include "core/progress.h"
 #include "neural/network.h"
+#include "neural/picture_terms.h"
 #include "neural/statistics.h"
 
 namespace gramloom::neural {
 
-/// L = Σ w_l E_l over the matched layers of a network, for one exemplar.
+/// A layer whose Gram matrix is matched, and its weight w_l.
+struct MatchedLayer {
+  std::size_t index;
+  double weight;
+};
+
+/// A network and what of it is matched.
+struct MatchedNetwork {
+  const Network& network;
+  const NetworkDescription& description;
+  std::vector<MatchedLayer> layers;
+};
+
+/// The weighted sum of NeuralParams' terms for one exemplar and one size of the result.
 class Loss {
  public:
-  struct MatchedLayer {
-    std::size_t index;
-    double weight;
-  };
+  /// exemplar: (channels, height, width). `network` may be null when gram_weight is 0.
+  Loss(const NeuralParams& params, const MatchedNetwork* network, const at::Tensor& exemplar,
+       Edges exemplar_edges, Size target, Edges edges, Random random);
 
-  Loss(const Network& network, const NetworkDescription& description,
-       std::vector<MatchedLayer> layers, const GramOptions& options, const at::Tensor& exemplar,
-       Edges exemplar_edges, Edges edges);
-
-  /// The loss of a picture (channels, height, width) and its gradient; the terms w_l E_l by name.
-  double operator()(const at::Tensor& picture, at::Tensor& gradient);
+  /// The loss of a picture (channels, height, width) and its gradient. Losses of one step are those
+  /// of one function; a step has random directions of its own.
+  double operator()(const at::Tensor& picture, std::uint64_t step, at::Tensor& gradient);
+  /// The weighted terms by name, of the last picture.
   const std::vector<Term>& terms() const { return terms_; }
 
  private:
-  const Network& network_;
-  std::vector<std::size_t> wanted_;
-  std::vector<double> weights_;
-  std::vector<GramTarget> targets_;
-  std::vector<Term> terms_;
+  // Adds the Gram matrices' gradient and returns their value.
+  double add_grams(const at::Tensor& picture, at::Tensor& gradient);
+
+  const MatchedNetwork* network_;
+  GramOptions options_;
+  double gram_weight_;
   Edges edges_;
+  std::vector<std::size_t> wanted_;
+  std::vector<GramTarget> targets_;
+  std::vector<std::pair<PictureTerm, double>> others_;  // with their weights
+  std::vector<Term> terms_;                             // of the layers, then of the others
 };
 
 }  // namespace gramloom::neural

@@ -109,7 +109,7 @@ void Lbfgs::load(const SavedState& state) {
 }
 
 double Adam::step(at::Tensor& x, const Objective& objective) {
-  constexpr double decay1 = 0.9, decay2 = 0.99, epsilon = 1e-8;
+  constexpr double decay1 = 0.8, decay2 = 0.99, epsilon = 1e-8;
   if (!first_.defined()) {
     first_ = at::zeros_like(x);
     second_ = at::zeros_like(x);
@@ -122,7 +122,8 @@ double Adam::step(at::Tensor& x, const Objective& objective) {
   const double correction1 = 1 - std::pow(decay1, steps_);
   const double correction2 = std::sqrt(1 - std::pow(decay2, steps_));
   const at::Tensor scale = second_.sqrt().div_(correction2).add_(epsilon);
-  x.addcdiv_(first_, scale, -learning_rate_ / correction1);
+  const double done = static_cast<double>(steps_ - 1) / static_cast<double>(planned_);
+  x.addcdiv_(first_, scale, -learning_rate_ * (1 - 0.9 * std::min(1.0, done)) / correction1);
   return value;
 }
 

@@ -49,11 +49,13 @@ class Lbfgs {
   std::deque<Pair> pairs_;
 };
 
-/// Adam (Kingma, Ba 2015, algorithm 1; β₁ = 0.9, β₂ = 0.99, ε = 1e-8; β₂ below the paper's 0.999
+/// Adam (Kingma, Ba 2015, algorithm 1; β₁ = 0.8, β₂ = 0.99, ε = 1e-8; both below the paper's
 /// because the gradient's size falls by orders of magnitude within a synthesis).
 class Adam {
  public:
-  explicit Adam(double learning_rate) : learning_rate_(learning_rate) {}
+  /// The step falls linearly from learning_rate to a tenth of it at `steps`: large steps leave
+  /// noise, which smaller ones then take out.
+  Adam(double learning_rate, std::int64_t steps) : learning_rate_(learning_rate), planned_(steps) {}
 
   /// One step, one evaluation. Returns the loss before it.
   double step(at::Tensor& x, const Objective& objective);
@@ -64,7 +66,7 @@ class Adam {
 
  private:
   double learning_rate_;
-  std::int64_t steps_ = 0;
+  std::int64_t planned_, steps_ = 0;
   at::Tensor first_, second_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "core/hash.h"
 #include "io/field_values.h"
@@ -9,13 +10,53 @@
 
 namespace gramloom::neural {
 
-std::vector<Loss::MatchedLayer> matched_layers(const NeuralParams& params,
-                                               NetworkDescription& description) {
+int level_count(const NeuralParams& params, Size exemplar) {
+  if (params.levels > 0) return params.levels;
+  int levels = 1;
+  const auto side = [&] {
+    const Size size = level_size(params, exemplar, levels);
+    return std::min(size.width, size.height);
+  };
+  while (side() >= params.coarsest_side) ++levels;
+  return levels;
+}
+
+Size level_size(const NeuralParams& params, Size whole, int level) {
+  const double factor = std::pow(params.level_factor, level);
+  const auto scaled = [&](int side) {
+    return std::max(1, static_cast<int>(std::lround(side * factor)));
+  };
+  return {scaled(whole.width), scaled(whole.height)};
+}
+
+std::int64_t steps_down_to(const NeuralParams& params, int levels, int level) {
+  std::int64_t steps = 0;
+  for (int l = level; l < levels; ++l) steps += at_level(params.iterations, l);
+  return steps;
+}
+
+void check_settings(const NeuralParams& params) {
+  check_fields(params);
+  const auto not_empty = [](const char* key, const auto& list) {
+    if (list.empty()) throw ConfigError("{} is an empty list", key);
+  };
+  not_empty("iterations", params.iterations);
+  not_empty("optimizer", params.optimizer);
+  not_empty("patch_sizes", params.patch_sizes);
+  if (params.sliced_weight + params.gram_weight + params.spectrum_weight +
+          params.autocorrelation_weight + params.variation_weight ==
+      0)
+    throw ConfigError(
+        "there is nothing to match: sliced_weight, gram_weight and the other weights are all 0");
+}
+
+std::vector<MatchedLayer> matched_layers(const NeuralParams& params,
+                                         NetworkDescription& description) {
   const auto& names = params.layers.empty() ? description.matched : params.layers;
   if (!params.layer_weights.empty() && params.layer_weights.size() != names.size())
     throw ConfigError("layer_weights has {} values for {} layers ({})", params.layer_weights.size(),
                       names.size(), fmt::join(names, ", "));
-  std::vector<Loss::MatchedLayer> layers;
+  std::vector<MatchedLayer> layers;
   for (std::size_t i = 0; i < names.size(); ++i)
     layers.push_back({find_layer(description, names[i]),
                       params.layer_weights.empty() ? 1 : params.layer_weights[i]});

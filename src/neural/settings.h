@@ -1,17 +1,35 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "neural/loss.h"
 #include "neural/synthesis.h"
 
 namespace gramloom::neural {
 
+/// The value of a list for a level, 0 being the finest: the last one serves all coarser levels.
+template <class T>
+const T& at_level(const std::vector<T>& list, int level) {
+  return list[std::min(static_cast<std::size_t>(level), list.size() - 1)];
+}
+
+/// Levels of the pyramid for that exemplar.
+int level_count(const NeuralParams& params, Size exemplar);
+/// The size of a picture on a level.
+Size level_size(const NeuralParams& params, Size whole, int level);
+/// Steps of all levels but those finer than `level`.
+std::int64_t steps_down_to(const NeuralParams& params, int levels, int level);
+
+/// Throws ConfigError for what the field list alone cannot tell: empty lists, no term at all.
+void check_settings(const NeuralParams& params);
+
 /// The layers that `params` asks for with their weights, in the network's order; `description`
 /// loses the layers above the last of them, which would be computed for nothing. Throws ConfigError
 /// for an unknown layer, or weights that are not one for each layer.
-std::vector<Loss::MatchedLayer> matched_layers(const NeuralParams& params,
-                                               NetworkDescription& description);
+std::vector<MatchedLayer> matched_layers(const NeuralParams& params,
+                                         NetworkDescription& description);
 
 /// Throws Error when trained weights are for another number of channels, ConfigError when there is
 /// no such file.

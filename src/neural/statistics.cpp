@@ -3,6 +3,8 @@
 #include <torch/csrc/autograd/custom_function.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <tuple>
 
 #include "neural/resample.h"
 
@@ -68,11 +70,48 @@ struct MomentsFunction : torch::autograd::Function<MomentsFunction> {
 
 Moments moments(const FeatureMaps& maps) {
   auto result = MomentsFunction::apply(maps.data, maps.channels);
-  return {result[0], result[1]};
+  return {result[0], result[1], {}};
 }
 
-Moments moments(const Scales& scales, Tile tile) {
-  if (scales.size() == 1) return moments(scales[0]);
+namespace {
+
+// Products of maps with themselves shifted by (dy, dx) positions, dy ≥ 0.
+at::Tensor shifted_products(const FeatureMaps& maps, std::int64_t dy, std::int64_t dx, Tile tile) {
+  at::Tensor here = maps.data, there = at::roll(maps.data, {-dy, -dx}, {1, 2});
+  const auto inside = [&](std::int64_t axis, std::int64_t shift) {
+    const std::int64_t count = maps.data.size(axis) - std::abs(shift);
+    here = here.narrow(axis, shift < 0 ? -shift : 0, count);
+    there = there.narrow(axis, shift < 0 ? -shift : 0, count);
+  };
+  if (!tiles_y(tile)) inside(1, dy);
+  if (!tiles_x(tile)) inside(2, dx);
+  const at::Tensor rows = to_rows({here, maps.channels});
+  return at::mm(rows.t(), to_rows({there, maps.channels})) / static_cast<double>(rows.size(0));
+}
+
+void add_shifted(const FeatureMaps& maps, std::int64_t first, Tile tile,
+                 const std::vector<int>& shifts, std::vector<Moments::Shifted>& shifted) {
+  for (const int d : shifts) {
+    if (std::min(maps.height(), maps.width()) < 2 * d) continue;
+    for (const auto& [dy, dx] : {std::pair{0, d}, {d, 0}, {d, d}, {d, -d}})
+      shifted.push_back({first, dy, dx, shifted_products(maps, dy, dx, tile)});
+  }
+}
+
+}  // namespace
+
+Moments moments(const Scales& scales, Tile tile, const std::vector<int>& shifts) {
+  std::vector<Moments::Shifted> shifted;
+  std::int64_t channels = 0;
+  for (const auto& maps : scales) {
+    add_shifted(maps, channels, tile, shifts, shifted);
+    channels += maps.channels;
+  }
+  if (scales.size() == 1) {
+    Moments own = moments(scales[0]);
+    own.shifted = std::move(shifted);
+    return own;
+  }
   std::vector<FeatureMaps> finer;  // maps of finer scales, averaged to the present one's positions
   std::vector<at::Tensor> means;
   std::vector<std::vector<at::Tensor>> blocks(scales.size());  // of the Gram matrix
@@ -95,7 +134,7 @@ Moments moments(const Scales& scales, Tile tile) {
   }
   std::vector<at::Tensor> rows;
   for (const auto& row : blocks) rows.push_back(at::cat(row, 1));
-  return {at::cat(rows), at::cat(means)};
+  return {at::cat(rows), at::cat(means), std::move(shifted)};
 }
 
 GramTarget::GramTarget(const Moments& exemplar, const GramOptions& options) : options_(options) {
@@ -110,19 +149,33 @@ GramTarget::GramTarget(const Moments& exemplar, const GramOptions& options) : op
     inverse_deviation_ = at::where(variance > second * 1e-6, variance.clamp_min(1e-30).rsqrt(),
                                    at::zeros_like(mean_));
   }
-  gram_ = transformed(exemplar);
-  const double nothing = gram_.square().sum().item<double>();
+  gram_ = transformed(exemplar.gram, exemplar, 0);
+  double nothing = gram_.square().sum().item<double>();
+  for (const auto& [first, dy, dx, products] : exemplar.shifted) {
+    shifted_.push_back({first, dy, dx, transformed(products, exemplar, first)});
+    nothing += shifted_.back().products.square().sum().item<double>();
+  }
   scale_ = options.normalise ? (nothing > 0 ? 1 / nothing : 0) : 1 / (4 * channels * channels);
 }
 
-at::Tensor GramTarget::transformed(const Moments& m) const {
-  const at::Tensor cross = at::outer(mean_, m.mean);
-  const at::Tensor centred = m.gram - cross - cross.t() + at::outer(mean_, mean_);
-  return centred * at::outer(inverse_deviation_, inverse_deviation_);
+at::Tensor GramTarget::transformed(const at::Tensor& products, const Moments& m,
+                                   std::int64_t first) const {
+  const auto own = [&](const at::Tensor& of_all) {
+    return of_all.narrow(0, first, products.size(0));
+  };
+  const at::Tensor mean = own(mean_), scale = own(inverse_deviation_);
+  const at::Tensor cross = at::outer(mean, own(m.mean));
+  const at::Tensor centred = products - cross - cross.t() + at::outer(mean, mean);
+  return centred * at::outer(scale, scale);
 }
 
 at::Tensor GramTarget::distance(const Moments& result) const {
-  at::Tensor error = (transformed(result) - gram_).square().sum();
+  at::Tensor error = (transformed(result.gram, result, 0) - gram_).square().sum();
+  for (const auto& own : result.shifted)  // those that both pictures are large enough for
+    for (const auto& goal : shifted_)
+      if (std::tie(own.first, own.dy, own.dx) == std::tie(goal.first, goal.dy, goal.dx))
+        error =
+            error + (transformed(own.products, result, own.first) - goal.products).square().sum();
   if (options_.centre)
     error = error + 2 * ((result.mean - mean_) * inverse_deviation_).square().sum();
   return error * scale_;

@@ -9,6 +9,13 @@ namespace gramloom::neural {
 struct Moments {
   at::Tensor gram;
   at::Tensor mean;
+
+  /// Products of maps with maps that are shifted, of one scale: its channels from `first` on.
+  struct Shifted {
+    std::int64_t first, dy, dx;
+    at::Tensor products;  // (channels of the scale, the same)
+  };
+  std::vector<Shifted> shifted;
 };
 
 /// One matrix product; its gradient (∂gram + ∂gramᵀ) F / M is one more.
@@ -18,13 +25,18 @@ Moments moments(const FeatureMaps& maps);
 /// where the finer one is averaged: what coarse maps, which are smooth, would give at every fine
 /// position, for a fraction of the work.
 /// tile: the edges across which maps go on.
-Moments moments(const Scales& scales, Tile tile);
+/// shifts: for each distance d, also the products with the same maps shifted by (d, 0), (0, d),
+/// (d, d) and (d, −d) positions, each scale with itself (Brochard, Zhang, Mallat 2022, "Generalized
+/// rectifier wavelet covariance models for texture synthesis", equation 5); not on scales of less
+/// than 2 d positions.
+Moments moments(const Scales& scales, Tile tile, const std::vector<int>& shifts = {});
 
 /// How the Gram matrices of one layer are compared.
 struct GramOptions {
   bool normalise = true;
   bool centre = true;
   bool standardise = true;
+  std::vector<int> shifts;  // of the moments
 };
 
 /// What one layer of the exemplar has, and how far a result is from it:
@@ -35,6 +47,7 @@ struct GramOptions {
 ///                difference, 2/(4 N²) Σ (μ − μ̂)², as if a constant map 1 had joined F;
 ///   standardise: each map is divided by its standard deviation on the exemplar (about 0 when
 ///                not centred);
+///   shifts:      products of shifted maps are compared like those of G;
 ///   normalise:   E is divided by its value for G = 0, μ = μ̂, so that layers weigh alike.
 class GramTarget {
  public:
@@ -43,10 +56,12 @@ class GramTarget {
   at::Tensor distance(const Moments& result) const;
 
  private:
-  at::Tensor transformed(const Moments& m) const;
+  // `products` of the maps from `first` on, centred and standardised with the means of `m`.
+  at::Tensor transformed(const at::Tensor& products, const Moments& m, std::int64_t first) const;
 
   GramOptions options_;
   at::Tensor mean_, inverse_deviation_, gram_;
+  std::vector<Moments::Shifted> shifted_;  // centred and standardised
   double scale_ = 1;
 };
 

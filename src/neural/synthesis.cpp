@@ -24,24 +24,30 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double seconds_between_checkpoints = 60;
 
-// The colours that a network sees: an affine map of the exemplar's, undone for the result.
-ColourPca network_colours(const NeuralParams& params, const NetworkDescription& description,
-                          const Image& exemplar) {
-  check_weights(params, description, exemplar.channels);
-  ColourPca colours = colour_pca(exemplar);
-  if (params.weights.empty() && params.whiten_colour) return colours;
+// The colours that the loss sees: an affine map of the exemplar's, undone for the result. Along the
+// principal axes the deviation becomes d^(1 − whitening), in units of their mean square.
+ColourPca seen_colours(const NeuralParams& params, const NetworkDescription& description,
+                       const ColourPca& principal) {
+  ColourPca colours = principal;
   const auto channels = static_cast<std::size_t>(colours.channels);
   double variance = 0;
-  for (const float d : colours.deviation) variance += static_cast<double>(d) * d;
-  const auto deviation = static_cast<float>(std::sqrt(variance / colours.channels));
-  colours.deviation.assign(channels, deviation);
-  if (!params.weights.empty() && !description.input_mean.empty()) {
-    colours.mean.assign(description.input_mean.begin(), description.input_mean.end());
-    colours.deviation.assign(description.input_deviation.begin(),
-                             description.input_deviation.end());
+  for (const float d : principal.deviation) variance += static_cast<double>(d) * d;
+  const double common = std::sqrt(variance / colours.channels);
+  if (params.gram_weight > 0 && !params.weights.empty()) {  // what trained weights expect
+    colours.deviation.assign(channels, static_cast<float>(common));
+    if (!description.input_mean.empty()) {
+      colours.mean.assign(description.input_mean.begin(), description.input_mean.end());
+      colours.deviation.assign(description.input_deviation.begin(),
+                               description.input_deviation.end());
+    }
+    for (std::size_t i = 0; i < channels * channels; ++i)
+      colours.axes[i] = i % (channels + 1) == 0 ? 1.0f : 0.0f;
+  } else {
+    for (float& d : colours.deviation)
+      if (d > 0)
+        d = static_cast<float>(std::pow(d, params.whitening) *
+                               std::pow(common, 1 - params.whitening));
   }
-  for (std::size_t i = 0; i < channels * channels; ++i)
-    colours.axes[i] = i % (channels + 1) == 0 ? 1.0f : 0.0f;
   return colours;
 }
 
@@ -57,13 +63,6 @@ at::Tensor noise(Random random, int channels, Size size) {
   return planes;
 }
 
-Size scaled(Size size, double factor) {
-  const auto scale = [&](int side) {
-    return std::max(1, static_cast<int>(std::lround(side * factor)));
-  };
-  return {scale(size.width), scale(size.height)};
-}
-
 // One synthesis under way.
 class Synthesis {
  public:
@@ -73,12 +72,20 @@ class Synthesis {
         target_(target),
         random_(random),
         control_(control),
-        description_(read_network(find_network(params.network))),
-        layers_(matched_layers(params, description_)),
-        colours_(network_colours(params, description_, exemplar)),
-        exemplar_(to_planes(whitened(exemplar, colours_))),
-        network_(make_network(params, description_, exemplar_)),
+        principal_(colour_pca(exemplar)),
+        levels_(level_count(params, exemplar.size())),
         start_(Clock::now()) {
+    if (params.gram_weight > 0) {
+      description_ = read_network(find_network(params.network));
+      layers_ = matched_layers(params, description_);
+      check_weights(params, description_, exemplar.channels);
+    }
+    colours_ = seen_colours(params, description_, principal_);
+    exemplar_ = to_planes(whitened(exemplar, colours_));
+    if (params.gram_weight > 0) {
+      network_ = make_network(params, description_, exemplar_);
+      matched_.emplace(*network_, description_, layers_);
+    }
     state_.fingerprint = fingerprint(params, exemplar, target, random);
   }
 
@@ -87,7 +94,7 @@ class Synthesis {
       state_ = std::move(*saved);
       seconds_before_ = state_.seconds;
     } else {
-      state_.level = params_.levels - 1;
+      state_.level = levels_ - 1;
     }
     last_checkpoint_ = Clock::now();
     while (run_level() && state_.level > 0) {
@@ -107,11 +114,14 @@ class Synthesis {
     return {tiles_x(target_.tile) ? Padding::circular : params_.padding,
             tiles_y(target_.tile) ? Padding::circular : params_.padding};
   }
-  double level_scale() const { return std::pow(params_.level_factor, state_.level); }
 
   at::Tensor first_picture(Size size) const {
     const int channels = colours_.channels;
-    if (params_.start.empty()) return noise(random_, channels, size).mul_(params_.noise);
+    if (params_.start.empty()) {
+      // In the exemplar's colours: a hue that it lacks would have to be taken out again.
+      const at::Tensor white = noise(random_, channels, size).mul_(params_.noise);
+      return to_planes(whitened(unwhitened(to_image(white), principal_), colours_));
+    }
     const Image image = read_image(params_.start).image;
     if (image.channels != channels)
       throw Error("{}: has {} channels, the exemplar has {}", params_.start.string(),
@@ -121,29 +131,34 @@ class Synthesis {
 
   // Optimises one level; false when the synthesis should stop.
   bool run_level() {
-    const Size size = scaled(target_.size, level_scale());
-    const Size exemplar_size = scaled(
-        {static_cast<int>(exemplar_.size(2)), static_cast<int>(exemplar_.size(1))}, level_scale());
+    const Size size = level_size(params_, target_.size, state_.level);
+    const Size exemplar_size = level_size(
+        params_, {static_cast<int>(exemplar_.size(2)), static_cast<int>(exemplar_.size(1))},
+        state_.level);
+    const int iterations = at_level(params_.iterations, state_.level);
+    const Optimizer kind = at_level(params_.optimizer, state_.level);
     const bool resumed = state_.iteration > 0;
     if (!state_.picture.defined())
       state_.picture = first_picture(size);
     else if (!resumed)
       state_.picture = resample(state_.picture, size, wrapped_axes(edges()));
 
-    Loss loss(network_, description_, layers_,
-              {params_.normalise, params_.centre, params_.standardise},
-              resample(exemplar_, exemplar_size, Tile::none), exemplar_edges(), edges());
+    Loss loss(params_, matched_ ? &*matched_ : nullptr,
+              resample(exemplar_, exemplar_size, Tile::none), exemplar_edges(), size, edges(),
+              random_.stream(1).stream(static_cast<std::uint64_t>(state_.level)));
+    // L-BFGS needs the same function at each step; Adam takes random ones.
     const Objective objective = [&](const at::Tensor& picture, at::Tensor& gradient) {
+      const auto step = kind == Optimizer::adam ? state_.iteration : 0;
       ++state_.evaluations;
-      return loss(picture, gradient);
+      return loss(picture, static_cast<std::uint64_t>(step), gradient);
     };
-    AnyOptimiser optimiser = params_.optimizer == Optimizer::lbfgs
+    AnyOptimiser optimiser = kind == Optimizer::lbfgs
                                  ? AnyOptimiser(Lbfgs(params_.history))
-                                 : AnyOptimiser(Adam(params_.learning_rate));
+                                 : AnyOptimiser(Adam(params_.learning_rate, iterations));
     return std::visit(
         [&](auto& method) {
           if (resumed) method.load(state_.optimiser);
-          while (state_.iteration < params_.iterations && !method.converged()) {
+          while (state_.iteration < iterations && !method.converged()) {
             const double value = method.step(state_.picture, objective);
             if (!std::isfinite(value))
               throw Error("the loss became {} at step {}: try a smaller learning_rate", value,
@@ -152,7 +167,7 @@ class Synthesis {
             const bool go_on = report(value, loss.terms());
             // The level is done, also for one who goes on from here later.
             if (value <= params_.stop_loss * state_.first_loss || seconds() >= params_.stop_seconds)
-              state_.iteration = params_.iterations;
+              state_.iteration = iterations;
             keep(method, !go_on);
             if (!go_on) return false;
           }
@@ -167,9 +182,8 @@ class Synthesis {
 
   bool report(double value, const std::vector<Term>& terms) const {
     Progress progress;
-    progress.steps = std::int64_t{params_.levels} * params_.iterations;
-    progress.step =
-        std::int64_t{params_.levels - 1 - state_.level} * params_.iterations + state_.iteration;
+    progress.steps = steps_down_to(params_, levels_, 0);
+    progress.step = steps_down_to(params_, levels_, state_.level + 1) + state_.iteration;
     progress.evaluations = state_.evaluations;
     progress.loss = value;
     progress.terms = terms;
@@ -190,11 +204,13 @@ class Synthesis {
   const Target& target_;
   Random random_;
   const Control& control_;
+  ColourPca principal_, colours_;
+  int levels_;
   NetworkDescription description_;
-  std::vector<Loss::MatchedLayer> layers_;
-  ColourPca colours_;
+  std::vector<MatchedLayer> layers_;
   at::Tensor exemplar_;
-  Network network_;
+  std::optional<Network> network_;
+  std::optional<MatchedNetwork> matched_;
   Checkpoint state_;
   double seconds_before_ = 0;
   Clock::time_point start_, last_checkpoint_;
@@ -204,7 +220,7 @@ class Synthesis {
 
 Texture synthesise(const NeuralParams& params, const Image& exemplar, const Target& target,
                    Random random, const Control& control) {
-  check_fields(params);
+  check_settings(params);
   const at::NoGradGuard no_gradients;
   at::set_num_threads(thread_count());
   Synthesis synthesis(params, exemplar, target, random, control);

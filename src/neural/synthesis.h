@@ -29,17 +29,45 @@ inline constexpr auto enum_names<RandomWeights> = std::to_array<std::string_view
 template <>
 inline constexpr auto enum_names<Optimizer> = std::to_array<std::string_view>({"lbfgs", "adam"});
 
-/// Texture synthesis by Gram matrices of a convolutional network's feature maps (Gatys, Ecker,
-/// Bethge 2015, "Texture synthesis using convolutional neural networks"): a noise image is changed
-/// step by step until its Gram matrices are those of the exemplar,
-///   G_l = F_l F_lᵀ,  E_l = 1/(4 N_l² M_l²) Σ (G_l − Ĝ_l)²,  L = Σ w_l E_l,
-/// with F_l the N_l feature maps of layer l at M_l positions. Departures from the paper, each an
-/// option: G is divided by M, so that exemplar and result may differ in size (equal to the paper
-/// when they don't); see normalise, centre, standardise, whiten_colour.
+/// Complete settings, each to be chosen by one word. `gatys` is the method of 2015 as published,
+/// but for normalise, centre, standardise and whitening; the others are what we found best for
+/// random filters in about 5, 15 and 60 seconds at 256² on two cores (models/README.md).
+enum class Preset { fast, balanced, quality, gatys };
+template <>
+inline constexpr auto enum_names<Preset> = std::to_array<std::string_view>({"fast", "balanced",
+                                                                            "quality", "gatys"});
+
+/// Texture synthesis by statistics of a network's feature maps or of random filters: a noise image
+/// is changed step by step, coarse to fine, until its statistics are those of the exemplar. The
+/// loss is a sum of weighted terms, each 1 or so for a picture without structure and 0 for the
+/// exemplar itself:
+///   gram             the Gram matrices of the matched layers, G_l = F_l F_lᵀ,
+///                    E_l = 1/(4 N_l² M_l²) Σ (G_l − Ĝ_l)², with F_l the N_l feature maps of layer
+///                    l at M_l positions (Gatys, Ecker, Bethge 2015, "Texture synthesis using
+///                    convolutional neural networks", equations 1 to 4). Departures, each an
+///                    option: G is divided by M, so that exemplar and result may differ in size
+///                    (equal to the paper when they don't); see normalise, centre, standardise,
+///                    shifts, whitening.
+///   sliced           the sliced Wasserstein distance between the two pictures' sets of patches,
+///                    along random directions that are drawn anew in each step of Adam (Heitz,
+///                    Vanhoey, Chambon, Belcour 2021, "A sliced Wasserstein loss for neural texture
+///                    synthesis"; of patches: Elnekave, Weiss 2022). It sees all that a network of
+///                    one linear layer can see, and needs no network.
+///   spectrum, autocorrelation, variation: see picture_terms.h.
 struct NeuralParams {
   static constexpr std::string_view kind = "neural";
   static constexpr std::string_view summary =
-      "Gram matrices of a convolutional network (Gatys, Ecker, Bethge 2015)";
+      "statistics of random filters or of a network (Gatys et al. 2015; Heitz et al. 2021)";
+
+  Preset preset = Preset::balanced;
+
+  double sliced_weight = 1;
+  std::vector<int> patch_sizes{7};
+  int directions = 32;
+  double gram_weight = 0;
+  double spectrum_weight = 0;
+  double autocorrelation_weight = 0;
+  double variation_weight = 0;
 
   std::filesystem::path network = "multiscale";
   std::filesystem::path weights;
@@ -49,30 +77,53 @@ struct NeuralParams {
   Padding padding = Padding::circular;
   Padding exemplar_padding = Padding::reflect;
   Pooling pooling = Pooling::as_described;
-
   std::vector<std::string> layers;
   std::vector<double> layer_weights;
   bool normalise = true;
   bool centre = true;
   bool standardise = true;
-  bool whiten_colour = true;
+  std::vector<int> shifts;
+  double whitening = 0.4;
 
-  Optimizer optimizer = Optimizer::lbfgs;
-  int iterations = 200;
-  double learning_rate = 0.03;
+  std::vector<Optimizer> optimizer{Optimizer::adam};
+  std::vector<int> iterations{60, 120, 240, 480, 600};
+  double learning_rate = 0.08;
   int history = 20;
   double stop_loss = 0;
   double stop_seconds = std::numeric_limits<double>::infinity();
 
-  int levels = 1;
-  double level_factor = 0.5;
+  int levels = 0;
+  int coarsest_side = 32;
+  double level_factor = 0.7;
   std::filesystem::path start;
   double noise = 1;
   bool match_histogram = false;
 
   static constexpr auto fields() {
     using P = NeuralParams;
+    constexpr Range weight{0, 1e9};
     return std::tuple{
+        Field{"preset", &P::preset, "settings that all other keys start from"},
+        Field{"sliced_weight", &P::sliced_weight,
+              "weight of the sliced Wasserstein distance of patches", "", weight},
+        Field{"patch_sizes",
+              &P::patch_sizes,
+              "sides of these patches; of several, steps take turns",
+              "pixels of the level",
+              {1, 64}},
+        Field{"directions",
+              &P::directions,
+              "random directions of each step along which patches are compared",
+              "",
+              {1, 4096}},
+        Field{"gram_weight", &P::gram_weight, "weight of the Gram matrices of a network's layers",
+              "", weight},
+        Field{"spectrum_weight", &P::spectrum_weight, "weight of the Fourier spectrum's modulus",
+              "", weight},
+        Field{"autocorrelation_weight", &P::autocorrelation_weight,
+              "weight of the autocorrelation up to a quarter of the exemplar", "", weight},
+        Field{"variation_weight", &P::variation_weight, "weight of the total variation", "",
+              weight},
         Field{"network", &P::network, "network description: a name in models/, or a .toml file"},
         Field{"weights", &P::weights, "trained weights, a .safetensors file; empty: random"},
         Field{"random_weights", &P::random_weights, "distribution of random weights"},
@@ -92,19 +143,34 @@ struct NeuralParams {
               "subtract each feature map's mean on the exemplar, and match means as a statistic"},
         Field{"standardise", &P::standardise,
               "divide each feature map by its standard deviation on the exemplar"},
-        Field{"whiten_colour", &P::whiten_colour,
-              "decorrelate the channels by the exemplar's principal components"},
-        Field{"optimizer", &P::optimizer, "how the image is changed"},
-        Field{"iterations", &P::iterations, "steps of the optimiser on each level", "", {0, 1e6}},
+        Field{"shifts",
+              &P::shifts,
+              "distances at which products of maps with shifted maps are matched too",
+              "positions of the layer",
+              {1, 256}},
+        Field{"whitening",
+              &P::whitening,
+              "how much the principal components of colour are made equally strong",
+              "",
+              {0, 1}},
+        Field{"optimizer", &P::optimizer,
+              "how the image is changed; of a list, the first is for the finest level, the last "
+              "also for all coarser ones"},
+        Field{"iterations",
+              &P::iterations,
+              "steps of the optimiser on each level; a list is read as that of optimizer",
+              "",
+              {0, 1e6}},
         Field{"learning_rate",
               &P::learning_rate,
-              "step of Adam, in units of the whitened image",
+              "first step of Adam on a level, relative to the exemplar's colours; it falls to a "
+              "tenth",
               "",
               {1e-6, 10}},
         Field{"history", &P::history, "steps that L-BFGS remembers", "steps", {1, 1000}},
         Field{"stop_loss",
               &P::stop_loss,
-              "stop when the loss is below this part of the first one",
+              "stop a level when the loss is below this part of its first one",
               "",
               {0, 1}},
         Field{"stop_seconds",
@@ -114,9 +180,14 @@ struct NeuralParams {
               {0, std::numeric_limits<double>::infinity()}},
         Field{"levels",
               &P::levels,
-              "levels of the image pyramid, coarse to fine; 1: no pyramid",
+              "levels of the image pyramid, coarse to fine; 0: by coarsest_side",
               "",
-              {1, 12}},
+              {0, 64}},
+        Field{"coarsest_side",
+              &P::coarsest_side,
+              "with levels = 0: the least shorter side of the exemplar on a level",
+              "pixels",
+              {4, 4096}},
         Field{"level_factor",
               &P::level_factor,
               "size of a level relative to the next finer one",
@@ -133,6 +204,9 @@ struct NeuralParams {
     };
   }
 };
+
+/// The settings of that preset.
+NeuralParams with_preset(Preset preset);
 
 /// The texture. When `control` asks to stop, what there is so far.
 /// Throws ConfigError for a network, layer or weights that cannot be, Error for an exemplar too

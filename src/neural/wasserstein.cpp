@@ -45,7 +45,8 @@ void sort(std::vector<T>& items, std::vector<T>& spare) {
   for (std::size_t d = 0; d < digits; ++d) {
     std::uint32_t sum = 0;
     for (auto& count : place[d]) sum += std::exchange(count, sum);
-    for (const T& item : items) spare[place[d][(order_of(item) >> (digit_bits * d)) % size]++] = item;
+    for (const T& item : items)
+      spare[place[d][(order_of(item) >> (digit_bits * d)) % size]++] = item;
     items.swap(spare);
   }
 }
@@ -65,19 +66,17 @@ float at_rank(const float* sorted, std::int64_t available, std::int64_t i, std::
 
 }  // namespace
 
-at::Tensor sorted_rows(const at::Tensor& rows) {
-  at::Tensor result = rows.clone(at::MemoryFormat::Contiguous);
+void sort_rows(at::Tensor& rows) {
   const std::int64_t count = rows.size(1);
   parallel_for(rows.size(0), 1, [&](std::int64_t begin, std::int64_t end) {
     std::vector<std::uint32_t> items(static_cast<std::size_t>(count)), spare;
     for (std::int64_t r = begin; r < end; ++r) {
-      float* values = result.data_ptr<float>() + r * count;
+      float* values = rows.data_ptr<float>() + r * count;
       std::transform(values, values + count, items.begin(), [](float v) { return order_of(v); });
       sort(items, spare);
       std::transform(items.begin(), items.end(), values, value_of);
     }
   });
-  return result;
 }
 
 double wasserstein(at::Tensor& rows, const at::Tensor& target) {

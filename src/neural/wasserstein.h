@@ -4,14 +4,14 @@
 
 namespace gramloom::neural {
 
-/// Each row of (rows, values) in ascending order.
-at::Tensor sorted_rows(const at::Tensor& rows);
+/// Puts each row of (rows, values), contiguous floats, into ascending order.
+void sort_rows(at::Tensor& rows);
 
 /// The mean distance between the values of each row and those of the same row of `target`, which is
 /// sorted, when each value goes to the one of its own rank: the Wasserstein distance W₁ in one
 /// dimension, averaged over the rows. Where the sides have different numbers of values, ranks are
 /// relative, and values between two of the target are interpolated.
-/// `rows` is overwritten by the gradient: what each value should do less of.
+/// `rows`, contiguous floats, is overwritten by the gradient.
 double wasserstein(at::Tensor& rows, const at::Tensor& target);
 
 }  // namespace gramloom::neural

@@ -82,8 +82,8 @@ TEST_F(ConfigText, UnknownKeysAreNamedWithTheirPlace) {
 
 TEST_F(ConfigText, WrongTypesSayWhatWasFoundAndWhatIsAllowed) {
   EXPECT_EQ(complaint("seeds = 'one'\n" + noise),
-            "a.toml:1:1: 'seeds' is a text, allowed is a list of whole numbers, each 0 to "
-            "2147483647");
+            "a.toml:1:1: 'seeds' is a text, allowed is a whole number, 0 to 2147483647, or a list "
+            "of these");
   EXPECT_EQ(complaint("seeds = [1, 'one']\n" + noise),
             "a.toml:1:13: 'seeds' is a text, allowed is a whole number, 0 to 2147483647");
   EXPECT_EQ(complaint("tile = true\n" + noise),

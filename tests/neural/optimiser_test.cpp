@@ -81,7 +81,7 @@ TEST(Lbfgs, GoesOnFromASavedState) {
   goes_on_as_if_it_had_not_stopped(Lbfgs(4), Lbfgs(4), Lbfgs(4));
 }
 TEST(Adam, GoesOnFromASavedState) {
-  goes_on_as_if_it_had_not_stopped(Adam(0.01), Adam(0.01), Adam(0.01));
+  goes_on_as_if_it_had_not_stopped(Adam(0.01, 100), Adam(0.01, 100), Adam(0.01, 100));
 }
 
 TEST(Adam, TheFirstStepIsTheLearningRateAlongTheGradientsSign) {
@@ -89,7 +89,7 @@ TEST(Adam, TheFirstStepIsTheLearningRateAlongTheGradientsSign) {
   at::Tensor gradient = at::empty_like(x);
   rosenbrock(x, gradient);
   const at::Tensor expected = x - 0.05 * at::sign(gradient);
-  Adam(0.05).step(x, rosenbrock);
+  Adam(0.05, 10).step(x, rosenbrock);
   EXPECT_LT(relative_difference(x, expected), 1e-8);
 }
 

@@ -24,10 +24,10 @@ Image stripes(Size size, int channels) {
 }
 
 NeuralParams quick() {
-  NeuralParams params;
+  NeuralParams params = with_preset(Preset::gatys);
   params.network = "vgg_small";
   params.layers = {"relu1_1", "pool1", "pool2"};
-  params.iterations = 12;
+  params.iterations = {12};
   return params;
 }
 
@@ -49,7 +49,7 @@ Image run(const NeuralParams& params, const Image& exemplar, const Target& targe
 
 TEST(Neural, TheLossFallsAHundredfold) {
   NeuralParams params = quick();
-  params.iterations = 80;
+  params.iterations = {80};
   Trace trace;
   synthesise(params, stripes({64, 64}, 3), {{64, 64}, Tile::both}, Random(1), trace.control());
   ASSERT_FALSE(trace.steps.empty());
@@ -88,7 +88,7 @@ TEST(Neural, AnySizeAndChannelsWithinTheExemplarsRange) {
       for (const auto padding :
            {Padding::circular, Padding::reflect, Padding::zero, Padding::valid}) {
         NeuralParams params = quick();
-        params.iterations = 3;
+        params.iterations = {3};
         params.padding = padding;
         params.layers = {"relu1_1", "pool1"};
         const Image result = run(params, exemplar, {size, Tile::x});
@@ -106,9 +106,9 @@ TEST(Neural, AnySizeAndChannelsWithinTheExemplarsRange) {
 TEST(Neural, AConstantExemplarGivesAConstantImage) {
   const Image flat({32, 32}, 3, 0.25f);
   for (const char* network : {"vgg_small", "multiscale"}) {
-    NeuralParams params;
+    NeuralParams params = with_preset(Preset::gatys);
     params.network = network;
-    params.iterations = 5;
+    params.iterations = {5};
     const Image result = run(params, flat, {{32, 32}, Tile::both});
     for (const float value : result.pixels) ASSERT_EQ(value, 0.25f);
   }
@@ -150,7 +150,7 @@ TEST(Neural, CoarseToFineEndsAtTheFinestSize) {
   NeuralParams params = quick();
   params.levels = 3;
   params.level_factor = 0.6;
-  params.iterations = 4;
+  params.iterations = {4};
   Trace trace;
   const Texture texture =
       synthesise(params, stripes({64, 64}, 3), {{50, 70}, Tile::both}, Random(1), trace.control());
@@ -161,7 +161,7 @@ TEST(Neural, CoarseToFineEndsAtTheFinestSize) {
 
 TEST(Neural, StopsByLossAndBySeconds) {
   NeuralParams params = quick();
-  params.iterations = 200;
+  params.iterations = {200};
   params.stop_loss = 0.3;
   Trace by_loss;
   synthesise(params, stripes({48, 48}, 3), {{48, 48}, Tile::both}, Random(1), by_loss.control());
@@ -192,12 +192,12 @@ class Interrupted : public testing::TestWithParam<Optimizer> {};
 
 TEST_P(Interrupted, GoesOnToTheSameBytes) {
   NeuralParams params = quick();
-  params.optimizer = GetParam();
+  params.optimizer = {GetParam()};
   params.levels = 2;
   const Image exemplar = stripes({48, 48}, 3);
   const Target target{{48, 48}, Tile::both};
   const fs::path checkpoint =
-      fs::path(testing::TempDir()) / fmt::format("neural_{}.checkpoint", to_word(params.optimizer));
+      fs::path(testing::TempDir()) / fmt::format("neural_{}.checkpoint", to_word(GetParam()));
   fs::remove(checkpoint);
   const Image whole = run(params, exemplar, target);
   for (const std::int64_t stop : {1, 7, 12, 13, 20}) {
@@ -215,14 +215,14 @@ TEST_P(Interrupted, GoesOnToTheSameBytes) {
 
 TEST_P(Interrupted, StaysStoppedWhereItsLossWasLowEnough) {
   NeuralParams params = quick();
-  params.optimizer = GetParam();
+  params.optimizer = {GetParam()};
   params.levels = 2;
-  params.iterations = 200;
+  params.iterations = {200};
   params.stop_loss = 0.5;
   const Image exemplar = stripes({48, 48}, 3);
   const Target target{{48, 48}, Tile::both};
   const fs::path checkpoint =
-      fs::path(testing::TempDir()) / fmt::format("loss_{}.checkpoint", to_word(params.optimizer));
+      fs::path(testing::TempDir()) / fmt::format("loss_{}.checkpoint", to_word(GetParam()));
   fs::remove(checkpoint);
   Trace whole, first, second;
   const Image expected = synthesise(params, exemplar, target, Random(1), whole.control()).image;
@@ -238,7 +238,7 @@ TEST_P(Interrupted, StaysStoppedWhereItsLossWasLowEnough) {
 
 TEST_P(Interrupted, OnACoarseLevelThePictureHasItsSizeAllTheSame) {
   NeuralParams params = quick();
-  params.optimizer = GetParam();
+  params.optimizer = {GetParam()};
   params.levels = 2;
   Trace trace;
   const Texture texture =
@@ -248,11 +248,11 @@ TEST_P(Interrupted, OnACoarseLevelThePictureHasItsSizeAllTheSame) {
 
 TEST_P(Interrupted, ACheckpointOfAnotherSynthesisIsNotUsed) {
   NeuralParams params = quick();
-  params.optimizer = GetParam();
+  params.optimizer = {GetParam()};
   const Image exemplar = stripes({40, 40}, 3);
   const Target target{{40, 40}, Tile::both};
   const fs::path checkpoint =
-      fs::path(testing::TempDir()) / fmt::format("other_{}.checkpoint", to_word(params.optimizer));
+      fs::path(testing::TempDir()) / fmt::format("other_{}.checkpoint", to_word(GetParam()));
   Trace first, second;
   synthesise(params, exemplar, target, Random(1), first.control(5, checkpoint));
   synthesise(params, exemplar, target, Random(2), second.control(-1, checkpoint));

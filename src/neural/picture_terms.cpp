@@ -1,0 +1,133 @@
+#include "neural/picture_terms.h"
+
+#include <torch/csrc/autograd/autograd.h>
+
+#include <algorithm>
+
+namespace gramloom::neural {
+
+namespace {
+
+// f(picture) is a scalar; adds weight times its gradient and returns it.
+template <class F>
+double add_gradient(const at::Tensor& picture, double weight, at::Tensor& gradient, F&& f) {
+  const at::AutoGradMode gradients(true);
+  const at::Tensor x = picture.detach().requires_grad_(true);
+  const at::Tensor value = f(x);
+  gradient.add_(torch::autograd::grad({value}, {x})[0], weight);
+  return value.template item<double>();
+}
+
+at::Tensor centred(const at::Tensor& planes) { return planes - planes.mean({1, 2}, true); }
+
+double inverse_of_sum(const at::Tensor& squares) {
+  const double sum = squares.sum().item<double>();
+  return sum > 0 ? 1 / sum : 0;
+}
+
+// Differences along x and y; on an axis that does not wrap, the last one is 0.
+at::Tensor total_variation(const at::Tensor& planes, Tile wraps) {
+  const auto difference = [&](std::int64_t axis, bool wrap) {
+    const at::Tensor next = at::roll(planes, -1, axis);
+    if (wrap) return next - planes;
+    const std::int64_t side = planes.size(axis);
+    return at::constant_pad_nd((next - planes).narrow(axis, 0, side - 1),
+                               axis == 1 ? at::IntArrayRef({0, 0, 0, 1}) : at::IntArrayRef({0, 1}));
+  };
+  const at::Tensor dx = difference(2, tiles_x(wraps)), dy = difference(1, tiles_y(wraps));
+  return (dx * dx + dy * dy + 1e-8).sqrt().mean({1, 2});
+}
+
+}  // namespace
+
+at::Tensor autocorrelation(const at::Tensor& planes, Size lags, Tile wraps) {
+  const std::int64_t height = planes.size(1), width = planes.size(2);
+  const std::int64_t padded_y = height + (tiles_y(wraps) ? 0 : lags.height);
+  const std::int64_t padded_x = width + (tiles_x(wraps) ? 0 : lags.width);
+  const std::vector<std::int64_t> shape{padded_y, padded_x};
+  const at::Tensor transformed = at::fft_rfft2(planes, shape);
+  const at::Tensor power = at::real(transformed * at::conj(transformed));
+  const at::Tensor products = at::fft_irfft2(power, shape);
+  // Rows of positive dy; columns of negative dx stand at the end.
+  const at::Tensor rows = products.narrow(1, 0, lags.height);
+  const at::Tensor sums = at::cat(
+      {rows.narrow(2, padded_x - lags.width + 1, lags.width - 1), rows.narrow(2, 0, lags.width)},
+      2);
+  at::Tensor count_y = at::full({lags.height, 1}, static_cast<double>(height), planes.options());
+  at::Tensor count_x =
+      at::full({1, 2 * lags.width - 1}, static_cast<double>(width), planes.options());
+  if (!tiles_y(wraps)) count_y -= at::arange(lags.height, planes.options()).view({-1, 1});
+  if (!tiles_x(wraps))
+    count_x -= at::arange(-lags.width + 1, lags.width, planes.options()).abs().view({1, -1});
+  return sums / (count_y * count_x);
+}
+
+AutocorrelationTerm::AutocorrelationTerm(const at::Tensor& exemplar, Size target, Tile wraps)
+    : lags_{std::max(1, std::min(static_cast<int>(exemplar.size(2)) / 4, target.width / 2)),
+            std::max(1, std::min(static_cast<int>(exemplar.size(1)) / 4, target.height / 2))},
+      wraps_(wraps),
+      goal_(autocorrelation(centred(exemplar), lags_, Tile::none)) {
+  at::Tensor off = goal_.clone();
+  off.select(1, 0).select(1, lags_.width - 1).zero_();
+  scale_ = inverse_of_sum(off.square());
+}
+
+double AutocorrelationTerm::add(const at::Tensor& picture, double weight, std::uint64_t,
+                                at::Tensor& gradient) const {
+  return add_gradient(picture, weight, gradient, [&](const at::Tensor& x) {
+    return (autocorrelation(centred(x), lags_, wraps_) - goal_).square().sum() * scale_;
+  });
+}
+
+SpectrumTerm::SpectrumTerm(const at::Tensor& exemplar, Size target) {
+  // Lags that both pictures know, faded out towards the largest.
+  const Size lags{std::max(1, std::min(static_cast<int>(exemplar.size(2)), target.width) / 2),
+                  std::max(1, std::min(static_cast<int>(exemplar.size(1)), target.height) / 2)};
+  const at::Tensor known = autocorrelation(centred(exemplar), lags, Tile::none);
+  const auto fade = [&](int count) {
+    const at::Tensor t = at::arange(-count + 1, count, exemplar.options()) / count;
+    return (t * 3.14159265358979).cos().add(1).div(2);
+  };
+  const at::Tensor faded = known *
+                           fade(lags.height).narrow(0, lags.height - 1, lags.height).view({-1, 1}) *
+                           fade(lags.width).view({1, -1});
+  // On the torus of the result, with the negative dy by symmetry.
+  at::Tensor torus = at::zeros({exemplar.size(0), target.height, target.width}, exemplar.options());
+  for (int dy = 0; dy < lags.height; ++dy)
+    for (int dx = -lags.width + 1; dx < lags.width; ++dx) {
+      const at::Tensor value = faded.select(1, dy).select(1, dx + lags.width - 1);
+      torus.select(1, dy).select(1, (dx + target.width) % target.width).copy_(value);
+      torus.select(1, (target.height - dy) % target.height)
+          .select(1, (target.width - dx) % target.width)
+          .copy_(value);
+    }
+  const double positions = static_cast<double>(target.width) * target.height;
+  goal_ = at::real(at::fft_rfft2(torus)).clamp_min(0).mul(positions).sqrt();
+  goal_.select(1, 0).select(1, 0).zero_();
+  scale_ = inverse_of_sum(goal_.square());
+}
+
+double SpectrumTerm::add(const at::Tensor& picture, double weight, std::uint64_t,
+                         at::Tensor& gradient) const {
+  return add_gradient(picture, weight, gradient, [&](const at::Tensor& x) {
+    const at::Tensor transformed = at::fft_rfft2(centred(x));
+    const at::Tensor power = at::real(transformed * at::conj(transformed));
+    // The modulus has no derivative at 0.
+    return ((power + 1e-6).sqrt() - goal_).square().sum() * scale_;
+  });
+}
+
+VariationTerm::VariationTerm(const at::Tensor& exemplar, Tile wraps) : wraps_(wraps) {
+  const at::Tensor variation = total_variation(exemplar, Tile::none);
+  inverse_ = at::where(variation > 1e-3, 1 / variation, at::zeros_like(variation));
+}
+
+double VariationTerm::add(const at::Tensor& picture, double weight, std::uint64_t,
+                          at::Tensor& gradient) const {
+  return add_gradient(picture, weight, gradient, [&](const at::Tensor& x) {
+    const at::Tensor ratio = total_variation(x, wraps_) * inverse_;
+    return at::where(inverse_ > 0, (ratio - 1).square(), at::zeros_like(ratio)).mean();
+  });
+}
+
+}  // namespace gramloom::neural

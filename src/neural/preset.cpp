@@ -1,0 +1,34 @@
+#include "neural/synthesis.h"
+
+namespace gramloom {
+
+NeuralParams with_preset(Preset preset) {
+  NeuralParams params;  // balanced
+  params.preset = preset;
+  switch (preset) {
+    case Preset::balanced:
+      break;
+    case Preset::fast:
+      params.directions = 24;
+      params.iterations = {14, 28, 56, 112, 224};
+      break;
+    case Preset::quality:
+      params.patch_sizes = {7, 5};
+      params.directions = 64;
+      params.iterations = {120, 240, 480, 960, 1200};
+      break;
+    case Preset::gatys:
+      params.sliced_weight = 0;
+      params.gram_weight = 1;
+      params.whitening = 1;
+      params.optimizer = {Optimizer::lbfgs};
+      params.iterations = {200};
+      params.learning_rate = 0.03;
+      params.levels = 1;
+      params.level_factor = 0.5;
+      break;
+  }
+  return params;
+}
+
+}  // namespace gramloom

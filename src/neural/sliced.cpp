@@ -1,0 +1,69 @@
+#include "neural/sliced.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "neural/patches.h"
+#include "neural/wasserstein.h"
+
+namespace gramloom::neural {
+
+namespace {
+
+void check_fit(const char* what, std::int64_t height, std::int64_t width, Tile wraps, int side) {
+  if ((tiles_y(wraps) || height >= side) && (tiles_x(wraps) || width >= side)) return;
+  throw Error("the {} of {}×{} is too small for patches of {}×{}: make patch_sizes smaller", what,
+              width, height, side, side);
+}
+
+}  // namespace
+
+SlicedTerm::SlicedTerm(at::Tensor exemplar, Size target, Tile wraps, std::vector<int> patch_sizes,
+                       int directions, Random random)
+    : exemplar_(std::move(exemplar)),
+      wraps_(wraps),
+      patch_sizes_(std::move(patch_sizes)),
+      directions_(directions),
+      random_(random) {
+  for (const int side : patch_sizes_) {
+    check_fit("exemplar", exemplar_.size(1), exemplar_.size(2), Tile::none, side);
+    check_fit("texture", target.height, target.width, wraps, side);
+  }
+  const at::Tensor values = project_patches(exemplar_, filters(0), Tile::none);
+  flat_ = (values - values.mean(1, true)).abs().mean().item<double>();
+}
+
+at::Tensor SlicedTerm::filters(std::uint64_t step) const {
+  const std::int64_t side = patch_sizes_[step % patch_sizes_.size()];
+  at::Tensor result = at::empty({directions_, exemplar_.size(0), side, side}, at::kFloat);
+  Random random = random_.stream(step);
+  float* values = result.data_ptr<float>();
+  for (std::int64_t i = 0; i < result.numel(); ++i) values[i] = random.normal();
+  return result.div_(result.flatten(1).norm(2, 1).view({-1, 1, 1, 1}));
+}
+
+double SlicedTerm::add(const at::Tensor& picture, double weight, std::uint64_t step,
+                       at::Tensor& gradient) const {
+  if (flat_ == 0) {  // a flat exemplar: its colour is all there is to match
+    const at::Tensor off = picture - exemplar_.mean({1, 2}, true);
+    gradient.add_(off, weight * 2 / static_cast<double>(picture.numel()));
+    return off.square().mean().item<double>();
+  }
+  const at::Tensor all = filters(step);
+  const std::int64_t positions = std::max(picture.numel(), exemplar_.numel()) / picture.size(0);
+  const std::int64_t at_once = std::max<std::int64_t>(2, sliced_values_at_once / positions);
+  double sum = 0;
+  for (std::int64_t first = 0; first < directions_; first += at_once) {
+    const std::int64_t count = std::min(at_once, directions_ - first);
+    const at::Tensor some = all.narrow(0, first, count);
+    at::Tensor goal = project_patches(exemplar_, some, Tile::none);
+    sort_rows(goal);
+    at::Tensor values = project_patches(picture, some, wraps_);
+    sum += wasserstein(values, goal) * static_cast<double>(count);
+    const double share = static_cast<double>(count) / directions_;
+    spread_patches(values.mul_(weight * share / flat_), some, wraps_, gradient);
+  }
+  return sum / directions_ / flat_;
+}
+
+}  // namespace gramloom::neural
