@@ -10,12 +10,12 @@ NeuralParams with_preset(Preset preset) {
       break;
     case Preset::fast:
       params.directions = 24;
-      params.iterations = {14, 28, 56, 112, 224};
+      params.iterations = {30, 60, 120, 150};
       break;
     case Preset::quality:
       params.patch_sizes = {7, 5};
       params.directions = 64;
-      params.iterations = {120, 240, 480, 960, 1200};
+      params.iterations = {120, 240, 400};
       break;
     case Preset::gatys:
       params.sliced_weight = 0;

@@ -86,14 +86,14 @@ struct NeuralParams {
   double whitening = 0.4;
 
   std::vector<Optimizer> optimizer{Optimizer::adam};
-  std::vector<int> iterations{60, 120, 240, 480, 600};
+  std::vector<int> iterations{80, 160, 300};
   double learning_rate = 0.08;
   int history = 20;
   double stop_loss = 0;
   double stop_seconds = std::numeric_limits<double>::infinity();
 
   int levels = 0;
-  int coarsest_side = 32;
+  int coarsest_side = 24;
   double level_factor = 0.7;
   std::filesystem::path start;
   double noise = 1;
