@@ -25,16 +25,31 @@ void use_all_threads() { at::set_num_threads(thread_count()); }
 void evaluation(benchmark::State& state, const char* name) {
   use_all_threads();
   const at::NoGradGuard no_gradients;
-  NeuralParams params;
+  NeuralParams params = with_preset(Preset::gatys);
   params.network = name;
   auto description = read_network(find_network(params.network));
   const auto layers = matched_layers(params, description);
   const at::Tensor exemplar = noise(3, state.range(0)), picture = noise(3, state.range(0));
   const Network network = make_network(params, description, exemplar);
   const Edges edges;
-  Loss loss(network, description, layers, {}, exemplar, edges, edges);
+  const Size size{static_cast<int>(state.range(0)), static_cast<int>(state.range(0))};
+  const MatchedNetwork matched{network, description, layers};
+  Loss loss(params, &matched, exemplar, edges, size, edges, Random(1));
   at::Tensor gradient = at::empty_like(picture);
-  for (auto _ : state) benchmark::DoNotOptimize(loss(picture, gradient));
+  for (auto _ : state) benchmark::DoNotOptimize(loss(picture, 0, gradient));
+}
+
+// A step of the preset `balanced`: patches along random directions.
+void sliced(benchmark::State& state) {
+  use_all_threads();
+  const at::NoGradGuard no_gradients;
+  const Size size{static_cast<int>(state.range(0)), static_cast<int>(state.range(0))};
+  const at::Tensor exemplar = noise(3, state.range(0)), picture = noise(3, state.range(0));
+  const Edges edges;
+  Loss loss(with_preset(Preset::balanced), nullptr, exemplar, edges, size, edges, Random(1));
+  at::Tensor gradient = at::empty_like(picture);
+  std::uint64_t step = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(loss(picture, step++, gradient));
 }
 
 void gram(benchmark::State& state) {
@@ -66,6 +81,7 @@ BENCHMARK_CAPTURE(evaluation, multiscale, "multiscale")
     ->GRAMLOOM_SIZES;
 BENCHMARK_CAPTURE(evaluation, vgg_small, "vgg_small")->Arg(128)->Arg(256)->Arg(512)->GRAMLOOM_SIZES;
 BENCHMARK_CAPTURE(evaluation, vgg19, "vgg19")->Arg(128)->Arg(256)->Arg(512)->GRAMLOOM_SIZES;
+BENCHMARK(sliced)->Arg(128)->Arg(256)->Arg(512)->GRAMLOOM_SIZES;
 BENCHMARK(gram)->Args({64, 256})->Args({128, 256})->Args({512, 32})->GRAMLOOM_SIZES;
 BENCHMARK(lbfgs)->Arg(128)->Arg(256)->Arg(512)->GRAMLOOM_SIZES;
 
