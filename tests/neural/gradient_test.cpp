@@ -24,6 +24,20 @@ NetworkDescription tiny_network() {
   return network;
 }
 
+// The Gram matrices alone, compared like that.
+NeuralParams grams(const GramOptions& options) {
+  NeuralParams params = with_preset(Preset::gatys);
+  params.normalise = options.normalise;
+  params.centre = options.centre;
+  params.standardise = options.standardise;
+  params.shifts = options.shifts;
+  return params;
+}
+
+Size size_of(const at::Tensor& planes) {
+  return {static_cast<int>(planes.size(2)), static_cast<int>(planes.size(1))};
+}
+
 class GradientTest : public testing::TestWithParam<Case> {};
 
 TEST_P(GradientTest, MatchesFiniteDifferences) {
@@ -35,20 +49,20 @@ TEST_P(GradientTest, MatchesFiniteDifferences) {
   const Network network(description, shapes, weights, c.pooling);
   const Edges edges{c.padding, c.padding};
   const at::Tensor exemplar = numbers({2, 16, 18}, 1, at::kDouble);
-  Loss loss(network, description, {{0, 0.5}, {1, 1}, {2, 2}, {4, 1.5}}, c.options, exemplar, edges,
-            edges);
-
   const at::Tensor picture = numbers({2, 15, 17}, 2, at::kDouble);
+  const MatchedNetwork matched{network, description, {{0, 0.5}, {1, 1}, {2, 2}, {4, 1.5}}};
+  Loss loss(grams(c.options), &matched, exemplar, edges, size_of(picture), edges, Random(1));
+
   at::Tensor gradient = at::empty_like(picture), unused = at::empty_like(picture);
-  loss(picture, gradient);
+  loss(picture, 0, gradient);
   ASSERT_GT(gradient.abs().max().item<double>(), 0);
   Random random(9);
   for (int trial = 0; trial < 6; ++trial) {  // along random directions, all pixels at once
     const at::Tensor direction = numbers(picture.sizes(), 100 + random.bits(), at::kDouble);
     const double step = 1e-6;
-    const double difference =
-        (loss(picture + step * direction, unused) - loss(picture - step * direction, unused)) /
-        (2 * step);
+    const double difference = (loss(picture + step * direction, 0, unused) -
+                               loss(picture - step * direction, 0, unused)) /
+                              (2 * step);
     const double slope = (gradient * direction).sum().item<double>();
     EXPECT_NEAR(slope, difference, 1e-5 * gradient.norm().item<double>());
   }
@@ -58,11 +72,13 @@ std::vector<Case> cases() {
   std::vector<Case> all;
   for (const auto padding : {Padding::circular, Padding::reflect, Padding::zero, Padding::valid})
     for (const auto pooling : {Pooling::average, Pooling::max})
-      all.push_back({padding, pooling, {true, true, true}});
+      all.push_back({padding, pooling, {true, true, true, {}}});
   for (int options = 0; options < 8; ++options)
     all.push_back({Padding::circular,
                    Pooling::average,
-                   {(options & 1) != 0, (options & 2) != 0, (options & 4) != 0}});
+                   {(options & 1) != 0, (options & 2) != 0, (options & 4) != 0, {}}});
+  all.push_back({Padding::circular, Pooling::average, {true, true, true, {1, 2}}});
+  all.push_back({Padding::reflect, Pooling::average, {false, false, false, {1}}});
   return all;
 }
 
@@ -79,17 +95,18 @@ TEST(PyramidGradient, MatchesFiniteDifferences) {
   const Network network(description, shapes, weights, Pooling::as_described);
   for (const auto padding : {Padding::circular, Padding::reflect, Padding::zero}) {
     const Edges edges{padding, padding};
-    Loss loss(network, description, {{1, 1}, {3, 0.5}}, {true, true, true},
-              numbers({2, 16, 18}, 1, at::kDouble), edges, edges);
     const at::Tensor picture = numbers({2, 13, 18}, 2, at::kDouble);  // odd: sizes 13, 7, 4
+    const MatchedNetwork matched{network, description, {{1, 1}, {3, 0.5}}};
+    Loss loss(grams({true, true, true, {}}), &matched, numbers({2, 16, 18}, 1, at::kDouble), edges,
+              size_of(picture), edges, Random(1));
     at::Tensor gradient = at::empty_like(picture), unused = at::empty_like(picture);
-    loss(picture, gradient);
+    loss(picture, 0, gradient);
     for (std::uint64_t trial = 0; trial < 4; ++trial) {
       const at::Tensor direction = numbers(picture.sizes(), 50 + trial, at::kDouble);
       const double step = 1e-6;
-      const double difference =
-          (loss(picture + step * direction, unused) - loss(picture - step * direction, unused)) /
-          (2 * step);
+      const double difference = (loss(picture + step * direction, 0, unused) -
+                                 loss(picture - step * direction, 0, unused)) /
+                                (2 * step);
       EXPECT_NEAR((gradient * direction).sum().item<double>(), difference,
                   1e-5 * gradient.norm().item<double>());
     }

@@ -55,7 +55,7 @@ TEST(GramTarget, IsThePapersErrorWhenNothingIsAsked) {
   const at::Tensor a = f.view({5, 24}), b = g.view({5, 24});
   const double expected =
       (at::mm(a, a.t()) - at::mm(b, b.t())).square().sum().item<double>() / (4.0 * 25 * 24 * 24);
-  const GramTarget target(moments(to_maps(f)), {false, false, false});
+  const GramTarget target(moments(to_maps(f)), {false, false, false, {}});
   EXPECT_NEAR(target.distance(moments(to_maps(g))).item<double>(), expected, 1e-12 * expected);
 }
 
@@ -70,7 +70,7 @@ TEST(GramTarget, CentredAndStandardisedIsThatOfTheTransformedMaps) {
   };
   const at::Tensor own = with_constant(f), other = with_constant(g);
   const double expected = (own - other).square().sum().item<double>() / (4 * 16);
-  const GramTarget target(moments(to_maps(f)), {false, true, true});
+  const GramTarget target(moments(to_maps(f)), {false, true, true, {}});
   EXPECT_NEAR(target.distance(moments(to_maps(g))).item<double>(), expected, 1e-9 * expected);
 }
 
@@ -78,17 +78,17 @@ TEST(GramTarget, ZeroAtTheExemplarItselfAndOneAtNothing) {
   for (const bool centre : {false, true})
     for (const bool standardise : {false, true}) {
       const Moments m = moments(to_maps(numbers({8, 6, 6}, 7, at::kDouble)));
-      const GramTarget target(m, {true, centre, standardise});
+      const GramTarget target(m, {true, centre, standardise, {}});
       EXPECT_NEAR(target.distance(m).item<double>(), 0, 1e-20);
       // Maps that are flat at the exemplar's means (or zero) have no centred Gram matrix.
       const at::Tensor flat = centre ? m.mean : at::zeros_like(m.mean);
-      EXPECT_NEAR(target.distance({at::outer(flat, flat), flat}).item<double>(), 1, 1e-9);
+      EXPECT_NEAR(target.distance({at::outer(flat, flat), flat, {}}).item<double>(), 1, 1e-9);
     }
 }
 
 TEST(GramTarget, FlatMapsOfTheExemplarMakeNoInfinity) {
   const FeatureMaps flat = to_maps(at::full({3, 4, 4}, 2.0f));
-  const GramTarget target(moments(flat), {true, true, true});
+  const GramTarget target(moments(flat), {true, true, true, {}});
   const double error = target.distance(moments(to_maps(numbers({3, 4, 4}, 8)))).item<double>();
   EXPECT_TRUE(std::isfinite(error));
 }
