@@ -6,6 +6,7 @@
 
 #include "io/text_file.h"
 #include "jobs/plan.h"
+#include "jobs/settings.h"
 
 namespace gramloom {
 namespace {
@@ -251,6 +252,77 @@ TEST_F(ConfigText, MemoryRefusalSaysWhatWouldFit) {
   EXPECT_LE(cost({width, height}), job.cost.bytes / 4);
   EXPECT_GT(cost({width + 20, height + 10}), job.cost.bytes / 4);
   EXPECT_NE(memory_refusal(config, plan, job, 0).find("no size would fit"), std::string::npos);
+}
+
+const std::string neural = exemplar + "[[method]]\nname = 'm'\nkind = 'neural'\n";
+
+NeuralParams params_of(const Config& config) {
+  return std::get<NeuralParams>(config.methods.at(0).method);
+}
+
+TEST_F(ConfigText, APresetSetsWhatOtherKeysStartFrom) {
+  const auto expect = [&](const Config& config, NeuralParams expected) {
+    const NeuralParams found = params_of(config);
+    EXPECT_EQ(method_to_json(found, folder_), method_to_json(expected, folder_));
+  };
+  expect(parse(neural), with_preset(Preset::balanced));
+  for (const Preset preset : {Preset::fast, Preset::balanced, Preset::quality, Preset::gatys})
+    expect(parse(neural + fmt::format("preset = '{}'\n", to_word(preset))), with_preset(preset));
+  NeuralParams expected = with_preset(Preset::fast);
+  expected.directions = 100;
+  expected.patch_sizes = {3, 9};
+  // Before or after the preset, in the file or on the command line.
+  expect(parse(neural + "directions = 100\npreset = 'fast'\npatch_sizes = [3, 9]\n"), expected);
+  expect(parse(neural + "preset = 'fast'\npatch_sizes = [3, 9]\n", {"directions=100"}), expected);
+  expect(parse(neural + "directions = 100\npatch_sizes = [3, 9]\npreset = 'quality'\n",
+               {"method.m.preset=fast"}),
+         expected);
+}
+
+TEST_F(ConfigText, AListMayBeOneValue) {
+  const NeuralParams params = params_of(
+      parse(neural + "iterations = 7\noptimizer = 'lbfgs'\npatch_sizes = 5\nshifts = 2\n"));
+  EXPECT_EQ(params.iterations, std::vector{7});
+  EXPECT_EQ(params.optimizer, std::vector{Optimizer::lbfgs});
+  EXPECT_EQ(params.patch_sizes, std::vector{5});
+  EXPECT_EQ(params.shifts, std::vector{2});
+  const NeuralParams lists =
+      params_of(parse(neural + "iterations = [7, 9]\noptimizer = ['lbfgs', 'adam']\n"));
+  EXPECT_EQ(lists.iterations, (std::vector{7, 9}));
+  EXPECT_EQ(lists.optimizer, (std::vector{Optimizer::lbfgs, Optimizer::adam}));
+  EXPECT_EQ(params_of(parse(neural, {"iterations=[3, 4]"})).iterations, (std::vector{3, 4}));
+}
+
+TEST_F(ConfigText, MistakesInPresetsAndLists) {
+  EXPECT_EQ(complaint(neural + "preset = 'fst'\n"),
+            "a.toml:7:1: unknown preset 'fst' (did you mean 'fast'?)");
+  EXPECT_EQ(complaint(neural + "preset = 'zzzzzzz'\n"),
+            "a.toml:7:1: unknown preset 'zzzzzzz' (allowed are fast, balanced, quality, gatys)");
+  EXPECT_EQ(complaint(neural + "preset = 3\n"),
+            "a.toml:7:1: 'preset' is a whole number, allowed is one of fast, balanced, quality, "
+            "gatys");
+  EXPECT_NE(complaint(neural + "preset = ['fast']\n"), "");
+  EXPECT_EQ(complaint(neural + "optimizer = ['adam', 'adm']\n"),
+            "a.toml:7:22: unknown optimizer 'adm' (did you mean 'adam'?)");
+  EXPECT_EQ(complaint(neural + "patch_sizes = [7, 65]\n"),
+            "a.toml:7:19: 'patch_sizes' = 65: allowed are 1 to 64");
+  EXPECT_EQ(complaint(neural, {"preset=fst"}),
+            "--set preset=fst: unknown preset 'fst' (did you mean 'fast'?)");
+}
+
+// What the reader lets pass is an error of the job, before it starts.
+TEST_F(ConfigText, ListsThatAreEmptyAndNothingToMatch) {
+  const auto error_of = [&](const std::string& text) {
+    try {
+      return make_plan(parse(neural + text)).jobs.at(0).error;
+    } catch (const ConfigError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_NE(error_of("iterations = []\n").find("iterations is an empty list"), std::string::npos)
+      << error_of("iterations = []\n");
+  EXPECT_NE(error_of("optimizer = []\n").find("optimizer is an empty list"), std::string::npos);
+  EXPECT_NE(error_of("sliced_weight = 0\n").find("there is nothing to match"), std::string::npos);
 }
 
 }  // namespace

@@ -93,5 +93,78 @@ TEST(GramTarget, FlatMapsOfTheExemplarMakeNoInfinity) {
   EXPECT_TRUE(std::isfinite(error));
 }
 
+at::Tensor products(const Moments& m, std::int64_t first, std::int64_t dy, std::int64_t dx) {
+  for (const auto& shifted : m.shifted)
+    if (shifted.first == first && shifted.dy == dy && shifted.dx == dx) return shifted.products;
+  ADD_FAILURE() << "no products of maps from " << first << " on at " << dy << ", " << dx;
+  return {};
+}
+
+TEST(ShiftedMoments, KnownByHand) {
+  // Two maps at four positions in a square, f = 1 2 / 3 4 and g = 0 1 / 0 0.
+  const at::Tensor planes =
+      at::tensor({1.0, 2.0, 3.0, 4.0, 0.0, 1.0, 0.0, 0.0}, at::kDouble).view({2, 2, 2});
+  const auto expect = [&](Tile tile, std::int64_t dy, std::int64_t dx, std::vector<double> values) {
+    const Moments m = moments({to_maps(planes)}, tile, {1});
+    ASSERT_EQ(m.shifted.size(), 4u);
+    EXPECT_LT(relative_difference(products(m, 0, dy, dx), at::tensor(values).view({2, 2})), 1e-7);
+  };
+  // ff, f with g to the right, g with f to the right, gg.
+  expect(Tile::none, 0, 1, {(1 * 2 + 3 * 4) / 2.0, 1 / 2.0, 0, 0});
+  expect(Tile::none, 1, 0, {(1 * 3 + 2 * 4) / 2.0, 0, 4 / 2.0, 0});
+  expect(Tile::none, 1, 1, {4, 0, 0, 0});
+  expect(Tile::none, 1, -1, {6, 0, 3, 0});
+  expect(Tile::x, 0, 1, {(2 + 2 + 12 + 12) / 4.0, 1 / 4.0, 1 / 4.0, 0});
+  expect(Tile::y, 1, -1, {(2 * 3 + 4 * 1) / 2.0, 0, 3 / 2.0, 0});
+  expect(Tile::both, 1, -1, {(1 * 4 + 2 * 3 + 3 * 2 + 4 * 1) / 4.0, 3 / 4.0, 3 / 4.0, 0});
+}
+
+TEST(ShiftedMoments, EachScaleWithItselfWhereItIsLargeEnough) {
+  const Scales scales{to_maps(numbers({3, 8, 9}, 1)), to_maps(numbers({2, 4, 5}, 2))};
+  const Moments m = moments(scales, Tile::both, {1, 2, 3, 5});
+  EXPECT_EQ(m.shifted.size(), 4u * (3 + 2));  // 1, 2, 3 of the first, 1, 2 of the second
+  EXPECT_EQ(products(m, 3, 2, -2).size(0), 2);
+}
+
+TEST(ShiftedMoments, UnchangedByShiftsOnTheTorus) {
+  const at::Tensor planes = numbers({5, 7, 8}, 1, at::kDouble);
+  const Moments a = moments({to_maps(planes)}, Tile::both, {2});
+  const Moments b = moments({to_maps(at::roll(planes, {3, -2}, {1, 2}))}, Tile::both, {2});
+  for (std::size_t i = 0; i < a.shifted.size(); ++i)
+    EXPECT_LT(relative_difference(a.shifted[i].products, b.shifted[i].products), 1e-12);
+}
+
+TEST(GramTarget, ComparesShiftedProductsLikeTheOthers) {
+  // Of one map, 1 2 / 3 4, on the torus: G = 7.5 and, at the four shifts, 7, 5.5, 5, 5.
+  const at::Tensor map = at::tensor({1.0, 2.0, 3.0, 4.0}, at::kDouble).view({1, 2, 2});
+  const auto of = [](const at::Tensor& planes) {
+    return moments({to_maps(planes)}, Tile::both, {1});
+  };
+  const GramTarget plain(of(map), {false, false, false, {1}});
+  const double squares = 7.5 * 7.5 + 7 * 7 + 5.5 * 5.5 + 5 * 5 + 5 * 5;
+  EXPECT_NEAR(plain.distance(of(at::zeros_like(map))).item<double>(), squares / 4, 1e-9);
+  EXPECT_NEAR(plain.distance(of(2 * map)).item<double>(), 9 * squares / 4, 1e-9);
+  // Centred at 2.5: 1.25, and 0.75, −0.75, −1.25, −1.25; by the deviation, 1 and ±0.6, −1, −1.
+  const GramTarget standardised(of(map), {false, true, true, {1}});
+  EXPECT_NEAR(standardised.distance(of(at::full_like(map, 2.5))).item<double>(),
+              (1 + 2 * 0.36 + 2) / 4, 1e-9);
+  const GramTarget normalised(of(map), {true, true, true, {1}});
+  EXPECT_NEAR(normalised.distance(of(at::full_like(map, 2.5))).item<double>(), 1, 1e-9);
+}
+
+TEST(GramTarget, WithShiftsZeroAtTheExemplarItselfAndItsShifts) {
+  const at::Tensor planes = numbers({6, 9, 8}, 7, at::kDouble) + 1;
+  for (const bool centre : {false, true}) {
+    const auto of = [](const at::Tensor& p) { return moments({to_maps(p)}, Tile::both, {1, 3}); };
+    const GramTarget target(of(planes), {true, centre, true, {1, 3}});
+    EXPECT_NEAR(target.distance(of(planes)).item<double>(), 0, 1e-20);
+    EXPECT_NEAR(target.distance(of(at::roll(planes, {2, 5}, {1, 2}))).item<double>(), 0, 1e-20);
+    // The Gram matrix of maps shuffled alike is the same; what lies beside what is not.
+    const at::Tensor shuffled =
+        planes.view({6, 72}).index_select(1, at::arange(71, -1, -1)).view({6, 9, 8});
+    EXPECT_GT(target.distance(of(shuffled)).item<double>(), 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace gramloom::neural

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/threads.h"
+#include "neural/settings.h"
 
 namespace gramloom {
 namespace {
@@ -258,6 +259,185 @@ TEST_P(Interrupted, ACheckpointOfAnotherSynthesisIsNotUsed) {
   synthesise(params, exemplar, target, Random(2), second.control(-1, checkpoint));
   EXPECT_EQ(second.steps.front().step, 1);
   fs::remove(checkpoint);
+}
+
+// Patches and the other terms of a picture, no network.
+NeuralParams quick_patches() {
+  NeuralParams params;
+  params.spectrum_weight = 0.1;
+  params.patch_sizes = {5, 3};
+  params.directions = 6;
+  params.levels = 3;
+  params.iterations = {6, 5, 4};
+  return params;
+}
+
+TEST(NeuralPatches, TheSeedDecides) {
+  const Image exemplar = stripes({40, 40}, 3);
+  const Target target{{32, 48}, Tile::both};
+  const Image once = run(quick_patches(), exemplar, target, 1);
+  EXPECT_EQ(once, run(quick_patches(), exemplar, target, 1));
+  EXPECT_NE(once, run(quick_patches(), exemplar, target, 2));
+}
+
+TEST(NeuralPatches, ThreadsDoNotMatter) {
+  const Image exemplar = stripes({72, 64}, 3);
+  const Target target{{80, 72}, Tile::x};
+  const Image whole = run(quick_patches(), exemplar, target);
+  set_thread_count(1);
+  const Image alone = run(quick_patches(), exemplar, target);
+  set_thread_count(0);
+  EXPECT_EQ(alone, whole);
+}
+
+TEST(NeuralPatches, GoOnToTheSameBytes) {
+  for (const auto& optimisers : {std::vector{Optimizer::adam},
+                                 {Optimizer::lbfgs, Optimizer::adam},
+                                 {Optimizer::adam, Optimizer::lbfgs}}) {
+    NeuralParams params = quick_patches();
+    params.optimizer = optimisers;
+    const Image exemplar = stripes({48, 48}, 3);
+    const Target target{{40, 52}, Tile::both};
+    const fs::path checkpoint = fs::path(testing::TempDir()) / "neural_patches.checkpoint";
+    fs::remove(checkpoint);
+    const Image whole = run(params, exemplar, target);
+    for (const std::int64_t stop : {1, 3, 4, 5, 9, 10, 14, 15}) {  // levels end at 4, 9 and 15
+      Trace first, second;
+      synthesise(params, exemplar, target, Random(1), first.control(stop, checkpoint));
+      EXPECT_EQ(first.steps.back().step, stop);
+      ASSERT_TRUE(fs::exists(checkpoint));
+      const Image resumed =
+          synthesise(params, exemplar, target, Random(1), second.control(-1, checkpoint)).image;
+      EXPECT_EQ(resumed, whole) << "stopped at " << stop;
+      fs::remove(checkpoint);
+    }
+  }
+}
+
+TEST(NeuralPatches, ReportsEachStepWithItsTerms) {
+  NeuralParams params = quick_patches();
+  params.gram_weight = 0.5;
+  params.network = "vgg_small";
+  params.layers = {"relu1_1", "pool1"};
+  params.autocorrelation_weight = 0.2;
+  params.variation_weight = 0.3;
+  Trace trace;
+  synthesise(params, stripes({64, 64}, 3), {{48, 40}, Tile::none}, Random(1), trace.control());
+  ASSERT_EQ(trace.steps.size(), 15u);
+  for (const auto& p : trace.steps) {
+    std::vector<std::string> names;
+    double sum = 0;
+    for (const auto& term : p.terms) {
+      names.push_back(term.name);
+      sum += term.value;
+    }
+    EXPECT_EQ(names, (std::vector<std::string>{"relu1_1", "pool1", "sliced", "spectrum",
+                                               "autocorrelation", "variation"}));
+    EXPECT_NEAR(sum, p.loss, 1e-5 * p.loss);
+    EXPECT_EQ(p.steps, 15);
+  }
+}
+
+TEST(NeuralPatches, WeightsCountOnceEach) {
+  // Twice the weight is twice the first loss.
+  NeuralParams params = quick_patches();
+  params.iterations = {1};
+  params.levels = 1;
+  params.autocorrelation_weight = 0.2;
+  params.variation_weight = 0.3;
+  const auto terms = [&] {
+    Trace trace;
+    synthesise(params, stripes({40, 40}, 3), {{40, 40}, Tile::both}, Random(1), trace.control());
+    return trace.steps.at(0).terms;
+  };
+  const auto once = terms();
+  params.sliced_weight *= 2;
+  params.spectrum_weight *= 2;
+  params.autocorrelation_weight *= 2;
+  params.variation_weight *= 2;
+  const auto twice = terms();
+  ASSERT_EQ(once.size(), 4u);
+  for (std::size_t i = 0; i < once.size(); ++i)
+    EXPECT_DOUBLE_EQ(twice[i].value, 2 * once[i].value) << once[i].name;
+}
+
+TEST(Neural, LevelsByTheCoarsestSide) {
+  NeuralParams params;
+  params.levels = 0;
+  params.level_factor = 0.5;
+  params.coarsest_side = 32;
+  EXPECT_EQ(neural::level_count(params, {256, 256}), 4);  // 256, 128, 64, 32
+  EXPECT_EQ(neural::level_count(params, {300, 127}), 2);  // the shorter side: 127, 64
+  EXPECT_EQ(neural::level_count(params, {20, 20}), 1);
+  params.coarsest_side = 33;
+  EXPECT_EQ(neural::level_count(params, {256, 256}), 3);
+  params.levels = 7;
+  EXPECT_EQ(neural::level_count(params, {256, 256}), 7);
+}
+
+TEST(Neural, ListsAreReadFromTheFinestLevel) {
+  NeuralParams params = quick_patches();
+  params.levels = 4;
+  params.iterations = {5, 3};
+  params.optimizer = {Optimizer::lbfgs, Optimizer::adam};
+  EXPECT_EQ(neural::steps_down_to(params, 4, 0), 5 + 3 * 3);
+  EXPECT_EQ(neural::steps_down_to(params, 4, 1), 3 * 3);
+  Trace trace;
+  synthesise(params, stripes({60, 60}, 1), {{60, 60}, Tile::both}, Random(1), trace.control());
+  ASSERT_GT(trace.steps.size(), 9u);
+  // One evaluation for each step of Adam; L-BFGS begins with two.
+  for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(trace.steps[i].evaluations, trace.steps[i].step);
+  EXPECT_GE(trace.steps[9].evaluations, 11);
+}
+
+TEST(Neural, LevelsWithoutStepsAreSkipped) {
+  NeuralParams params = quick_patches();
+  params.iterations = {4, 0, 3};
+  Trace trace;
+  const Texture texture =
+      synthesise(params, stripes({60, 60}, 3), {{50, 40}, Tile::both}, Random(1), trace.control());
+  EXPECT_EQ(texture.image.size(), (Size{50, 40}));
+  EXPECT_EQ(trace.steps.size(), 7u);
+}
+
+TEST(Neural, SettingsThatCannotBeAreMistakesOfTheConfig) {
+  const auto complaint = [](auto&& change) -> std::string {
+    NeuralParams params;
+    change(params);
+    const Image exemplar = stripes({40, 40}, 3);
+    try {
+      estimate(params, exemplar.size(), 3, {{40, 40}, Tile::both});
+    } catch (const ConfigError& error) {
+      EXPECT_THROW(run(params, exemplar, {{40, 40}, Tile::both}), ConfigError);
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(complaint([](auto& p) { p.iterations.clear(); }), "iterations is an empty list");
+  EXPECT_EQ(complaint([](auto& p) { p.optimizer.clear(); }), "optimizer is an empty list");
+  EXPECT_EQ(complaint([](auto& p) { p.patch_sizes.clear(); }), "patch_sizes is an empty list");
+  EXPECT_EQ(
+      complaint([](auto& p) { p.sliced_weight = 0; }),
+      "there is nothing to match: sliced_weight, gram_weight and the other weights are all 0");
+  EXPECT_EQ(complaint([](auto& p) {
+              p.iterations = {5, -1};
+            }),
+            "iterations = -1: allowed are 0 to 1000000");
+}
+
+TEST(Neural, APatchLargerThanTheExemplarIsAClearError) {
+  NeuralParams params = quick_patches();
+  params.levels = 2;
+  params.level_factor = 0.5;
+  params.patch_sizes = {13};
+  try {
+    run(params, stripes({24, 40}, 3), {{64, 64}, Tile::both});
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "the exemplar of 12×20 is too small for patches of 13×13: make patch_sizes smaller");
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Optimisers, Interrupted,

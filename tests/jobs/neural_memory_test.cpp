@@ -1,0 +1,98 @@
+// What estimate() says of memory holds for runs of a few steps.
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+#include <filesystem>
+
+#include "jobs/memory.h"
+#include "neural/synthesis.h"
+
+namespace gramloom {
+namespace {
+
+Image grain(Size size, int channels) {
+  Image image(size, channels);
+  Random random(1);
+  for (float& value : image.pixels) value = random.uniform();
+  return image;
+}
+
+// The most that a synthesis adds to what the process has; its last step writes a checkpoint.
+double bytes_of(const NeuralParams& params, const Image& exemplar, const Target& target) {
+  const auto checkpoint = std::filesystem::path(testing::TempDir()) / "neural_memory.checkpoint";
+  std::filesystem::remove(checkpoint);
+  malloc_trim(0);
+  reset_peak_memory();
+  const double before = peak_memory();
+  const Control control{[](const Progress& p) { return p.step < p.steps; }, checkpoint};
+  synthesise(params, exemplar, target, Random(1), control);
+  const double bytes = peak_memory() - before;
+  std::filesystem::remove(checkpoint);
+  return bytes;
+}
+
+struct MemoryCase {
+  const char* name;
+  Size exemplar, target;
+  int channels;
+  void (*change)(NeuralParams&);
+};
+
+class NeuralMemory : public testing::TestWithParam<MemoryCase> {};
+
+TEST_P(NeuralMemory, IsAtMostTheEstimate) {
+  const auto& [name, exemplar, target, channels, change] = GetParam();
+  NeuralParams params;
+  params.iterations = {2, 1};
+  change(params);
+  bytes_of(params, grain({64, 64}, channels), {{64, 64}, Tile::both});  // the libraries start
+  const double estimated = estimate(params, exemplar, channels, {target, Tile::both}).bytes;
+  const double found = bytes_of(params, grain(exemplar, channels), {target, Tile::both});
+  RecordProperty("found", fmt::format("{:.1f}", found / 1e6));
+  RecordProperty("estimated", fmt::format("{:.1f}", estimated / 1e6));
+  fmt::print("{}: {:.1f} of {:.1f} MB\n", name, found / 1e6, estimated / 1e6);
+  EXPECT_LE(found, estimated);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cases, NeuralMemory,
+    testing::Values(MemoryCase{"grey", {256, 256}, {900, 700}, 1, [](NeuralParams&) {}},
+                    MemoryCase{"colour", {256, 256}, {900, 700}, 3, [](NeuralParams&) {}},
+                    MemoryCase{"stack", {256, 256}, {900, 700}, 5, [](NeuralParams&) {}},
+                    MemoryCase{"large_exemplar", {900, 700}, {200, 200}, 3, [](NeuralParams&) {}},
+                    MemoryCase{"lbfgs",
+                               {256, 256},
+                               {900, 700},
+                               3,
+                               [](NeuralParams& p) { p.optimizer = {Optimizer::lbfgs}; }},
+                    MemoryCase{"other_terms",
+                               {256, 256},
+                               {900, 700},
+                               3,
+                               [](NeuralParams& p) {
+                                 p.spectrum_weight = p.autocorrelation_weight = p.variation_weight =
+                                     1;
+                               }},
+                    MemoryCase{"gatys",
+                               {256, 256},
+                               {500, 400},
+                               3,
+                               [](NeuralParams& p) {
+                                 p = with_preset(Preset::gatys);
+                                 p.network = "vgg_small";
+                                 p.iterations = {2};
+                               }},
+                    MemoryCase{"shifts",
+                               {256, 256},
+                               {500, 400},
+                               3,
+                               [](NeuralParams& p) {
+                                 p = with_preset(Preset::gatys);
+                                 p.network = "vgg_small";
+                                 p.shifts = {1, 2, 4};
+                                 p.iterations = {2};
+                               }}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace gramloom

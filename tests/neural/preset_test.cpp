@@ -1,0 +1,132 @@
+// Each preset on small pictures of one, three and five channels, and what its defaults promise.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "neural/settings.h"
+#include "neural/synthesis.h"
+
+namespace gramloom {
+namespace {
+
+// Bricks of two colours in rows that are shifted by half a brick, with some grain.
+Image bricks(Size size, int channels) {
+  Image image(size, channels);
+  Random random(1);
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
+      const bool joint = y % 12 < 2 || (x + y / 12 % 2 * 12) % 24 < 2;
+      for (int c = 0; c < channels; ++c)
+        image.at(x, y)[c] =
+            (joint ? 0.2f + 0.1f * static_cast<float>(c) : 0.7f) + 0.1f * random.uniform();
+    }
+  return image;
+}
+
+// A tenth of the preset's steps, and a tenth of the published method's.
+NeuralParams shortened(Preset preset) {
+  NeuralParams params = with_preset(preset);
+  for (int& steps : params.iterations) steps = std::max(8, steps / 10);
+  return params;
+}
+
+struct PresetCase {
+  Preset preset;
+  int channels;
+  Tile tile;
+};
+
+class EveryPreset : public testing::TestWithParam<PresetCase> {};
+
+TEST_P(EveryPreset, LowersItsLoss) {
+  const auto [preset, channels, tile] = GetParam();
+  const NeuralParams params = shortened(preset);
+  const Image exemplar = bricks({96, 96}, channels);
+  std::vector<Progress> steps;
+  const Control control{[&](const Progress& p) {
+                          steps.push_back(p);
+                          return true;
+                        },
+                        {}};
+  const Image result = synthesise(params, exemplar, {{96, 96}, tile}, Random(3), control).image;
+  EXPECT_EQ(result.size(), (Size{96, 96}));
+  EXPECT_EQ(result.channels, channels);
+  const int levels = neural::level_count(params, exemplar.size());
+  ASSERT_EQ(static_cast<std::int64_t>(steps.size()), neural::steps_down_to(params, levels, 0));
+  // Steps of one level have one loss, but for its random directions.
+  const auto mean = [&](auto first, auto last) {
+    return std::accumulate(first, last, 0.0,
+                           [](double sum, const auto& p) { return sum + p.loss; }) /
+           static_cast<double>(last - first);
+  };
+  for (int level = 0; level < levels; ++level) {
+    const auto begin = steps.begin() + neural::steps_down_to(params, levels, level + 1);
+    const auto end = steps.begin() + neural::steps_down_to(params, levels, level);
+    const auto quarter = std::max<std::ptrdiff_t>(1, (end - begin) / 4);
+    EXPECT_LT(mean(end - quarter, end), mean(begin, begin + quarter)) << "on level " << level;
+  }
+}
+
+std::vector<PresetCase> every_preset() {
+  std::vector<PresetCase> cases;
+  for (const Preset preset : {Preset::fast, Preset::balanced, Preset::quality, Preset::gatys})
+    for (const int channels : {1, 3, 5})
+      for (const Tile tile : {Tile::none, Tile::both}) cases.push_back({preset, channels, tile});
+  return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Presets, EveryPreset, testing::ValuesIn(every_preset()),
+                         [](const auto& test) {
+                           const auto& [preset, channels, tile] = test.param;
+                           return fmt::format("{}_{}_{}", to_word(preset), channels, to_word(tile));
+                         });
+
+TEST(Presets, AreAllAllowedAndTheirDefaultIsBalanced) {
+  for (const Preset preset : {Preset::fast, Preset::balanced, Preset::quality, Preset::gatys}) {
+    const NeuralParams params = with_preset(preset);
+    EXPECT_EQ(params.preset, preset);
+    EXPECT_NO_THROW(neural::check_settings(params));
+  }
+  EXPECT_EQ(NeuralParams{}.preset, Preset::balanced);
+  EXPECT_EQ(with_preset(Preset::balanced).iterations, NeuralParams{}.iterations);
+}
+
+TEST(Presets, AConstantExemplarGivesAConstantImage) {
+  for (const Preset preset : {Preset::fast, Preset::balanced, Preset::quality})
+    for (const Tile tile : {Tile::none, Tile::both}) {
+      const Image flat({48, 40}, 3, 0.3f);
+      const Image result =
+          synthesise(shortened(preset), flat, {{52, 40}, tile}, Random(1), {}).image;
+      for (const float value : result.pixels) ASSERT_EQ(value, 0.3f);
+    }
+}
+
+// Correlation with the checkerboard, +1 or −1 for either of its phases.
+double checkerboard_correlation(const Image& image) {
+  const double mean = std::accumulate(image.pixels.begin(), image.pixels.end(), 0.0) /
+                      static_cast<double>(image.pixels.size());
+  double product = 0, square = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const double value = *image.at(x, y) - mean;
+      product += (x + y) % 2 ? -value : value;
+      square += value * value;
+    }
+  return product / std::sqrt(square * static_cast<double>(image.pixels.size()));
+}
+
+TEST(Presets, ACheckerboardOfPixelsComesBack) {
+  Image board({64, 64}, 1);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) *board.at(x, y) = static_cast<float>((x + y) % 2);
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    const Image result =
+        synthesise(with_preset(Preset::balanced), board, {{64, 64}, Tile::both}, Random(seed), {})
+            .image;
+    EXPECT_GT(std::abs(checkerboard_correlation(result)), 0.95) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace gramloom
