@@ -25,6 +25,11 @@ double inverse_of_sum(const at::Tensor& squares) {
   return sum > 0 ? 1 / sum : 0;
 }
 
+at::Tensor without_lag_0(at::Tensor autocorrelation) {
+  autocorrelation.select(1, 0).select(1, autocorrelation.size(2) / 2).zero_();
+  return autocorrelation;
+}
+
 // Differences along x and y; on an axis that does not wrap, the last one is 0.
 at::Tensor total_variation(const at::Tensor& planes, Tile wraps) {
   const auto difference = [&](std::int64_t axis, bool wrap) {
@@ -66,16 +71,14 @@ AutocorrelationTerm::AutocorrelationTerm(const at::Tensor& exemplar, Size target
     : lags_{std::max(1, std::min(static_cast<int>(exemplar.size(2)) / 4, target.width / 2)),
             std::max(1, std::min(static_cast<int>(exemplar.size(1)) / 4, target.height / 2))},
       wraps_(wraps),
-      goal_(autocorrelation(centred(exemplar), lags_, Tile::none)) {
-  at::Tensor off = goal_.clone();
-  off.select(1, 0).select(1, lags_.width - 1).zero_();
-  scale_ = inverse_of_sum(off.square());
-}
+      goal_(without_lag_0(autocorrelation(centred(exemplar), lags_, Tile::none))),
+      scale_(inverse_of_sum(goal_.square())) {}
 
 double AutocorrelationTerm::add(const at::Tensor& picture, double weight, std::uint64_t,
                                 at::Tensor& gradient) const {
   return add_gradient(picture, weight, gradient, [&](const at::Tensor& x) {
-    return (autocorrelation(centred(x), lags_, wraps_) - goal_).square().sum() * scale_;
+    const at::Tensor own = without_lag_0(autocorrelation(centred(x), lags_, wraps_));
+    return (own - goal_).square().sum() * scale_;
   });
 }
 

@@ -254,7 +254,7 @@ TEST_F(ConfigText, MemoryRefusalSaysWhatWouldFit) {
   EXPECT_NE(memory_refusal(config, plan, job, 0).find("no size would fit"), std::string::npos);
 }
 
-const std::string neural = exemplar + "[[method]]\nname = 'm'\nkind = 'neural'\n";
+const std::string patches = exemplar + "[[method]]\nname = 'm'\nkind = 'neural'\n";
 
 NeuralParams params_of(const Config& config) {
   return std::get<NeuralParams>(config.methods.at(0).method);
@@ -265,48 +265,48 @@ TEST_F(ConfigText, APresetSetsWhatOtherKeysStartFrom) {
     const NeuralParams found = params_of(config);
     EXPECT_EQ(method_to_json(found, folder_), method_to_json(expected, folder_));
   };
-  expect(parse(neural), with_preset(Preset::balanced));
+  expect(parse(patches), with_preset(Preset::balanced));
   for (const Preset preset : {Preset::fast, Preset::balanced, Preset::quality, Preset::gatys})
-    expect(parse(neural + fmt::format("preset = '{}'\n", to_word(preset))), with_preset(preset));
+    expect(parse(patches + fmt::format("preset = '{}'\n", to_word(preset))), with_preset(preset));
   NeuralParams expected = with_preset(Preset::fast);
   expected.directions = 100;
   expected.patch_sizes = {3, 9};
   // Before or after the preset, in the file or on the command line.
-  expect(parse(neural + "directions = 100\npreset = 'fast'\npatch_sizes = [3, 9]\n"), expected);
-  expect(parse(neural + "preset = 'fast'\npatch_sizes = [3, 9]\n", {"directions=100"}), expected);
-  expect(parse(neural + "directions = 100\npatch_sizes = [3, 9]\npreset = 'quality'\n",
+  expect(parse(patches + "directions = 100\npreset = 'fast'\npatch_sizes = [3, 9]\n"), expected);
+  expect(parse(patches + "preset = 'fast'\npatch_sizes = [3, 9]\n", {"directions=100"}), expected);
+  expect(parse(patches + "directions = 100\npatch_sizes = [3, 9]\npreset = 'quality'\n",
                {"method.m.preset=fast"}),
          expected);
 }
 
 TEST_F(ConfigText, AListMayBeOneValue) {
   const NeuralParams params = params_of(
-      parse(neural + "iterations = 7\noptimizer = 'lbfgs'\npatch_sizes = 5\nshifts = 2\n"));
+      parse(patches + "iterations = 7\noptimizer = 'lbfgs'\npatch_sizes = 5\nshifts = 2\n"));
   EXPECT_EQ(params.iterations, std::vector{7});
   EXPECT_EQ(params.optimizer, std::vector{Optimizer::lbfgs});
   EXPECT_EQ(params.patch_sizes, std::vector{5});
   EXPECT_EQ(params.shifts, std::vector{2});
   const NeuralParams lists =
-      params_of(parse(neural + "iterations = [7, 9]\noptimizer = ['lbfgs', 'adam']\n"));
+      params_of(parse(patches + "iterations = [7, 9]\noptimizer = ['lbfgs', 'adam']\n"));
   EXPECT_EQ(lists.iterations, (std::vector{7, 9}));
   EXPECT_EQ(lists.optimizer, (std::vector{Optimizer::lbfgs, Optimizer::adam}));
-  EXPECT_EQ(params_of(parse(neural, {"iterations=[3, 4]"})).iterations, (std::vector{3, 4}));
+  EXPECT_EQ(params_of(parse(patches, {"iterations=[3, 4]"})).iterations, (std::vector{3, 4}));
 }
 
 TEST_F(ConfigText, MistakesInPresetsAndLists) {
-  EXPECT_EQ(complaint(neural + "preset = 'fst'\n"),
+  EXPECT_EQ(complaint(patches + "preset = 'fst'\n"),
             "a.toml:7:1: unknown preset 'fst' (did you mean 'fast'?)");
-  EXPECT_EQ(complaint(neural + "preset = 'zzzzzzz'\n"),
+  EXPECT_EQ(complaint(patches + "preset = 'zzzzzzz'\n"),
             "a.toml:7:1: unknown preset 'zzzzzzz' (allowed are fast, balanced, quality, gatys)");
-  EXPECT_EQ(complaint(neural + "preset = 3\n"),
+  EXPECT_EQ(complaint(patches + "preset = 3\n"),
             "a.toml:7:1: 'preset' is a whole number, allowed is one of fast, balanced, quality, "
             "gatys");
-  EXPECT_NE(complaint(neural + "preset = ['fast']\n"), "");
-  EXPECT_EQ(complaint(neural + "optimizer = ['adam', 'adm']\n"),
+  EXPECT_NE(complaint(patches + "preset = ['fast']\n"), "");
+  EXPECT_EQ(complaint(patches + "optimizer = ['adam', 'adm']\n"),
             "a.toml:7:22: unknown optimizer 'adm' (did you mean 'adam'?)");
-  EXPECT_EQ(complaint(neural + "patch_sizes = [7, 65]\n"),
+  EXPECT_EQ(complaint(patches + "patch_sizes = [7, 65]\n"),
             "a.toml:7:19: 'patch_sizes' = 65: allowed are 1 to 64");
-  EXPECT_EQ(complaint(neural, {"preset=fst"}),
+  EXPECT_EQ(complaint(patches, {"preset=fst"}),
             "--set preset=fst: unknown preset 'fst' (did you mean 'fast'?)");
 }
 
@@ -314,7 +314,7 @@ TEST_F(ConfigText, MistakesInPresetsAndLists) {
 TEST_F(ConfigText, ListsThatAreEmptyAndNothingToMatch) {
   const auto error_of = [&](const std::string& text) {
     try {
-      return make_plan(parse(neural + text)).jobs.at(0).error;
+      return make_plan(parse(patches + text)).jobs.at(0).error;
     } catch (const ConfigError& error) {
       return std::string(error.what());
     }

@@ -1,4 +1,5 @@
 // What estimate() says of memory holds for runs of a few steps.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <malloc.h>
 

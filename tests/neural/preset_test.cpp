@@ -1,4 +1,5 @@
 // Each preset on small pictures of one, three and five channels, and what its defaults promise.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
