@@ -31,6 +31,8 @@ SlicedTerm::SlicedTerm(at::Tensor exemplar, Size target, Tile wraps, std::vector
   }
   const at::Tensor values = project_patches(exemplar_, filters(0), Tile::none);
   flat_ = (values - values.mean(1, true)).abs().mean().item<double>();
+  // The mean of equal values is rounded.
+  if (flat_ < 1e-6 * exemplar_.square().mean().sqrt().item<double>()) flat_ = 0;
 }
 
 at::Tensor SlicedTerm::filters(std::uint64_t step) const {

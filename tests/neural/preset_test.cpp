@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "io/field_values.h"
 #include "neural/settings.h"
 #include "neural/synthesis.h"
 
@@ -25,7 +26,7 @@ Image bricks(Size size, int channels) {
   return image;
 }
 
-// A tenth of the preset's steps, and a tenth of the published method's.
+// With a tenth of its steps.
 NeuralParams shortened(Preset preset) {
   NeuralParams params = with_preset(preset);
   for (int& steps : params.iterations) steps = std::max(8, steps / 10);
@@ -77,11 +78,12 @@ std::vector<PresetCase> every_preset() {
   return cases;
 }
 
-INSTANTIATE_TEST_SUITE_P(Presets, EveryPreset, testing::ValuesIn(every_preset()),
-                         [](const auto& test) {
-                           const auto& [preset, channels, tile] = test.param;
-                           return fmt::format("{}_{}_{}", to_word(preset), channels, to_word(tile));
-                         });
+std::string name_of(const testing::TestParamInfo<PresetCase>& info) {
+  return fmt::format("{}_{}_{}", to_word(info.param.preset), info.param.channels,
+                     to_word(info.param.tile));
+}
+
+INSTANTIATE_TEST_SUITE_P(Presets, EveryPreset, testing::ValuesIn(every_preset()), name_of);
 
 TEST(Presets, AreAllAllowedAndTheirDefaultIsBalanced) {
   for (const Preset preset : {Preset::fast, Preset::balanced, Preset::quality, Preset::gatys}) {
