@@ -25,6 +25,7 @@ struct Work {
   double operations = 0;  // of one evaluation with its gradient
   double kept = 0;        // values that the gradient needs
   double largest = 0;     // values of the largest layer
+  double matched = 0;     // values of the matched layers
   double weights = 0;
 };
 
@@ -57,7 +58,11 @@ Work count(const NetworkDescription& network, const std::vector<FilterShape>& sh
     work.kept += values;
     work.largest = std::max(work.largest, values);
     for (const auto& layer : matched)
-      if (layer.index == i) work.operations += 6 * maps * std::max(values, maps * positions) / 1.5;
+      if (layer.index == i) {
+        const double matched_values = std::max(values, maps * positions);
+        work.operations += 6 * maps * matched_values / 1.5;
+        work.matched += matched_values;
+      }
   }
   return work;
 }
@@ -112,6 +117,8 @@ Cost estimate(const NeuralParams& params, Size exemplar, int channels, const Tar
     own = count(network, shapes, layers, exemplar, channels);
     const double shifted = 1 + 4 * static_cast<double>(params.shifts.size()) / 3;
     result.operations *= shifted;
+    // The gradient needs each shifted copy of the maps, and both as rows.
+    result.kept += 4 * 3 * static_cast<double>(params.shifts.size()) * result.matched;
   }
   const SlicedWork sliced = count_sliced(params, pixels(target.size), pixels(exemplar), channels);
   const double picture = pixels(target.size) * channels;
@@ -128,7 +135,7 @@ Cost estimate(const NeuralParams& params, Size exemplar, int channels, const Tar
   cost.seconds = start_seconds + own.operations / 2 / operations_per_second;
   for (int level = 0; level < level_count(params, exemplar); ++level) {
     const double area = std::pow(params.level_factor, 2 * level);
-    const Work part{result.operations * area, 0, 0, 0};
+    const Work part{result.operations * area, 0, 0, 0, 0};
     const SlicedWork share{sliced.operations * area, sliced.sorted * area, 0};
     cost.seconds +=
         at_level(params.iterations, level) *

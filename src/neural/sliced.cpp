@@ -16,6 +16,14 @@ void check_fit(const char* what, std::int64_t height, std::int64_t width, Tile w
               width, height, side, side);
 }
 
+// Calls f(some of the filters), few enough for that many positions.
+template <class F>
+void for_each_group(const at::Tensor& filters, std::int64_t positions, F&& f) {
+  const std::int64_t at_once = std::max<std::int64_t>(2, sliced_values_at_once / positions);
+  for (std::int64_t first = 0; first < filters.size(0); first += at_once)
+    f(filters.narrow(0, first, std::min(at_once, filters.size(0) - first)));
+}
+
 }  // namespace
 
 SlicedTerm::SlicedTerm(at::Tensor exemplar, Size target, Tile wraps, std::vector<int> patch_sizes,
@@ -29,8 +37,12 @@ SlicedTerm::SlicedTerm(at::Tensor exemplar, Size target, Tile wraps, std::vector
     check_fit("exemplar", exemplar_.size(1), exemplar_.size(2), Tile::none, side);
     check_fit("texture", target.height, target.width, wraps, side);
   }
-  const at::Tensor values = project_patches(exemplar_, filters(0), Tile::none);
-  flat_ = (values - values.mean(1, true)).abs().mean().item<double>();
+  for_each_group(filters(0), exemplar_.numel() / exemplar_.size(0), [&](const at::Tensor& some) {
+    at::Tensor values = project_patches(exemplar_, some, Tile::none);
+    values.sub_(values.mean(1, true)).abs_();
+    flat_ += values.mean().item<double>() * static_cast<double>(some.size(0));
+  });
+  flat_ /= directions_;
   // The mean of equal values is rounded.
   if (flat_ < 1e-6 * exemplar_.square().mean().sqrt().item<double>()) flat_ = 0;
 }
@@ -51,20 +63,16 @@ double SlicedTerm::add(const at::Tensor& picture, double weight, std::uint64_t s
     gradient.add_(off, weight * 2 / static_cast<double>(picture.numel()));
     return off.square().mean().item<double>();
   }
-  const at::Tensor all = filters(step);
   const std::int64_t positions = std::max(picture.numel(), exemplar_.numel()) / picture.size(0);
-  const std::int64_t at_once = std::max<std::int64_t>(2, sliced_values_at_once / positions);
   double sum = 0;
-  for (std::int64_t first = 0; first < directions_; first += at_once) {
-    const std::int64_t count = std::min(at_once, directions_ - first);
-    const at::Tensor some = all.narrow(0, first, count);
+  for_each_group(filters(step), positions, [&](const at::Tensor& some) {
+    const auto count = static_cast<double>(some.size(0));
     at::Tensor goal = project_patches(exemplar_, some, Tile::none);
     sort_rows(goal);
     at::Tensor values = project_patches(picture, some, wraps_);
-    sum += wasserstein(values, goal) * static_cast<double>(count);
-    const double share = static_cast<double>(count) / directions_;
-    spread_patches(values.mul_(weight * share / flat_), some, wraps_, gradient);
-  }
+    sum += wasserstein(values, goal) * count;
+    spread_patches(values.mul_(weight * count / directions_ / flat_), some, wraps_, gradient);
+  });
   return sum / directions_ / flat_;
 }
 
