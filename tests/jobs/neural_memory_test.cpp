@@ -42,7 +42,7 @@ struct MemoryCase {
 class NeuralMemory : public testing::TestWithParam<MemoryCase> {};
 
 TEST_P(NeuralMemory, IsAtMostTheEstimate) {
-  const auto& [name, exemplar, target, channels, change] = GetParam();
+  [[maybe_unused]] const auto& [name, exemplar, target, channels, change] = GetParam();
   NeuralParams params;
   params.iterations = {2, 1};
   change(params);
@@ -51,7 +51,6 @@ TEST_P(NeuralMemory, IsAtMostTheEstimate) {
   const double found = bytes_of(params, grain(exemplar, channels), {target, Tile::both});
   RecordProperty("found", fmt::format("{:.1f}", found / 1e6));
   RecordProperty("estimated", fmt::format("{:.1f}", estimated / 1e6));
-  fmt::print("{}: {:.1f} of {:.1f} MB\n", name, found / 1e6, estimated / 1e6);
   EXPECT_LE(found, estimated);
 }
 
