@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -12,12 +13,15 @@
 namespace gramloom {
 
 // What a parameter of each type looks like: in words, as text and as JSON. The types are those of
-// core/fields.h, and besides them Size and std::optional (a key that may be left out).
+// core/fields.h, and besides them Size, std::optional (a key that may be left out) and NamedFiles.
 
 template <class T>
 inline constexpr bool is_optional = false;
 template <class T>
 inline constexpr bool is_optional<std::optional<T>> = true;
+
+/// Files by names of the user's: a table of the config.
+using NamedFiles = std::map<std::string, std::filesystem::path>;
 
 template <>
 inline constexpr auto enum_names<Tile> = std::to_array<std::string_view>({"none", "x", "y",
@@ -41,6 +45,8 @@ std::string allowed_values(const Range& range) {
     return fmt::format("one of {}", fmt::join(enum_names<T>, ", "));
   } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
     return "a file";
+  } else if constexpr (std::is_same_v<T, NamedFiles>) {
+    return "a table of files: { name = \"file.png\" }";
   } else if constexpr (std::is_same_v<T, std::string>) {
     return "a text";
   } else {
@@ -67,6 +73,10 @@ nlohmann::ordered_json value_to_json(const T& value, const std::filesystem::path
     if (!value.has_parent_path()) return value.generic_string();
     const auto from = std::filesystem::absolute(folder.empty() ? "." : folder).lexically_normal();
     return std::filesystem::absolute(value).lexically_proximate(from).generic_string();
+  } else if constexpr (std::is_same_v<T, NamedFiles>) {
+    auto files = nlohmann::ordered_json::object();
+    for (const auto& [name, file] : value) files[name] = value_to_json(file, folder);
+    return files;
   } else if constexpr (is_list<T>) {
     auto list = nlohmann::ordered_json::array();
     for (const auto& element : value) list.push_back(value_to_json(element, folder));

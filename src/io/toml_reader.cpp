@@ -145,6 +145,15 @@ fs::path read_path(const toml::node& node, const Slot& slot, const std::string& 
   return file;
 }
 
+NamedFiles read_files(const toml::node& node, const Slot& slot, const std::string& allowed) {
+  if (!node.is_table()) wrong_type(node, slot, allowed);
+  NamedFiles files;
+  for (const auto& [key, value] : *node.as_table())
+    files[std::string(key.str())] =
+        read_path(value, {key.str(), {}, key.source()}, allowed_values<fs::path>({}));
+  return files;
+}
+
 }  // namespace detail
 
 std::string required_text(const toml::table& table, std::string_view key) {

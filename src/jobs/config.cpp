@@ -17,9 +17,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t longest_name = 100;
 
 // A name becomes part of a path, on any file system.
-std::string read_name(const toml::table& table, std::set<std::string>& taken) {
-  const std::string name = required_text(table, "name");
-  const toml::source_region& region = key_region(table, "name");
+void check_name(const std::string& name, const toml::source_region& region) {
+  if (name.empty()) fail(region, "a name is empty");
   const bool unfit = std::any_of(name.begin(), name.end(), [](char c) {
     return static_cast<unsigned char>(c) < 32 ||
            std::string_view("/\\:*?\"<>|").find(c) != std::string_view::npos;
@@ -28,6 +27,12 @@ std::string read_name(const toml::table& table, std::set<std::string>& taken) {
     fail(region, "name '{}' is not fit for a file name", name);
   if (name.size() > longest_name)
     fail(region, "name is {} characters long, allowed are {}", name.size(), longest_name);
+}
+
+std::string read_name(const toml::table& table, std::set<std::string>& taken) {
+  const std::string name = required_text(table, "name");
+  const toml::source_region& region = key_region(table, "name");
+  check_name(name, region);
   if (!taken.insert(name).second) fail(region, "name '{}' is there twice", name);
   return name;
 }
@@ -42,6 +47,11 @@ std::vector<ExemplarEntry> read_exemplars(toml::table& config) {
     exemplar.place = place(table->source());
     required_text(*table, "image");
     read_fields(exemplar, *table);
+    for (const auto& [map, file] : exemplar.maps) {
+      const toml::source_region& region = key_region(*table, "maps");
+      check_name(map, region);
+      if (file.empty()) fail(region, "the map '{}' has no file", map);
+    }
     exemplars.push_back(std::move(exemplar));
   }
   return exemplars;

@@ -7,6 +7,7 @@
 
 #include "core/fields.h"
 #include "core/image.h"
+#include "io/field_values.h"
 #include "io/image_file.h"
 #include "jobs/baseline_limits.h"
 #include "jobs/methods.h"
@@ -24,6 +25,7 @@ inline constexpr auto enum_names<FileFormat> =
 struct ExemplarEntry {
   std::string name;  // fit for a folder's name
   std::filesystem::path image;
+  NamedFiles maps;  // further pictures of the same surface, pixel for pixel: "height", "roughness"
   std::optional<int> max_side;
   std::string place;  // where the config says so, for messages
 
@@ -31,6 +33,7 @@ struct ExemplarEntry {
     using E = ExemplarEntry;
     return std::tuple{
         Field{"image", &E::image, "the picture"},
+        Field{"maps", &E::maps, "maps of the same surface, made together with the picture"},
         Field{"max_side", &E::max_side, "scale the longer side down to this", "pixels", {1, 65536}},
     };
   }

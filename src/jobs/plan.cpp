@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/resize.h"
 #include "jobs/settings.h"
 #include "metrics/scores.h"
 
@@ -21,11 +20,13 @@ const ExemplarFacts& facts_of(const Plan& plan, const Job& job) {
 ExemplarFacts look_at(const ExemplarEntry& exemplar) {
   ExemplarFacts facts;
   try {
-    facts.hash = file_hash(exemplar.image);
-    const ImageFile file = load_exemplar(exemplar);
-    facts.size = file.image.size();
-    facts.channels = file.image.channels;
-    facts.encoding = file.encoding;
+    facts.hashes.push_back(file_hash(exemplar.image));
+    for (const auto& [name, file] : exemplar.maps) facts.hashes.push_back(file_hash(file));
+    Exemplar loaded = load_exemplar(exemplar);
+    facts.size = loaded.image.size();
+    facts.layers = std::move(loaded.layers);
+  } catch (const ConfigError&) {
+    throw;  // for the user to mend first
   } catch (const Error& error) {
     facts.error = error.what();
   }
@@ -39,10 +40,10 @@ void estimate_job(const Config& config, const Plan& plan, PlannedJob& planned) {
   planned.error = facts.error;
   if (!planned.error.empty()) return;
   try {
-    planned.cost =
-        estimate_method(method.method, facts.size, facts.channels, {config.size, config.tile});
+    planned.cost = estimate_method(method.method, facts.size, channels_of(facts.layers),
+                                   {config.size, config.tile});
     if (config.scores && planned.job.exemplar)
-      planned.scoring = estimate_scores(facts.size, facts.channels, config.size);
+      planned.scoring = estimate_scores(facts.size, facts.layers.front().channels, config.size);
   } catch (const ConfigError& error) {
     throw ConfigError("{}: method '{}': {}", method.place, method.name, error.what());
   } catch (const Error& error) {
@@ -82,12 +83,6 @@ bool job_matches(const std::string& pattern, const std::string& job) {
     return fnmatch(pattern.c_str(), text.c_str(), 0) == 0;
   };
   return pattern.empty() || match(job.substr(0, job.rfind('/'))) || match(job);
-}
-
-ImageFile load_exemplar(const ExemplarEntry& exemplar) {
-  ImageFile file = read_image(exemplar.image);
-  if (exemplar.max_side) file.image = fit_longer_side(file.image, *exemplar.max_side);
-  return file;
 }
 
 Plan make_plan(const Config& config, const std::string& only) {
@@ -131,8 +126,8 @@ std::string memory_refusal(const Config& config, const Plan& plan, const Planned
   };
   const auto fits = [&](Size size) {
     try {
-      return estimate_method(config.methods[planned.job.method].method, facts.size, facts.channels,
-                             {size, config.tile})
+      return estimate_method(config.methods[planned.job.method].method, facts.size,
+                             channels_of(facts.layers), {size, config.tile})
                  .bytes <= available;
     } catch (const Error&) {
       return false;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "io/image_file.h"
 #include "jobs/config.h"
+#include "jobs/exemplar.h"
 
 namespace gramloom {
 
@@ -33,14 +33,10 @@ bool job_matches(const std::string& pattern, const std::string& job);
 /// What is known of an exemplar before its jobs run.
 struct ExemplarFacts {
   Size size;  // after max_side
-  int channels = 0;
-  Encoding encoding;
-  std::string hash;   // of the file's bytes
-  std::string error;  // why it cannot be read; its jobs fail with this
+  std::vector<Layer> layers;
+  std::vector<std::string> hashes;  // of each layer's file
+  std::string error;                // why it cannot be read; its jobs fail with this
 };
-
-/// The exemplar's picture as methods see it, and its encoding. Throws Error.
-ImageFile load_exemplar(const ExemplarEntry& exemplar);
 
 /// A job and what it is expected to need.
 struct PlannedJob {
@@ -59,8 +55,8 @@ struct Plan {
 };
 
 /// Reads every exemplar once and estimates every job. Selected are the jobs that
-/// match `only` (see job_matches). Throws ConfigError for parameters that a method refuses, and
-/// when no job matches.
+/// match `only` (see job_matches). Throws ConfigError for parameters that a method refuses, for
+/// maps that do not fit their picture, and when no job matches.
 Plan make_plan(const Config& config, const std::string& only = "");
 
 /// "" when a finished texture can be scored in `available` bytes; otherwise why not.

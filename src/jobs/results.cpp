@@ -7,6 +7,8 @@ namespace gramloom {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 FileFormat choose_format(const Config& config, PixelType type, int channels) {
   if (config.format != FileFormat::automatic) return config.format;
   if (channels > 4) return FileFormat::tif;
@@ -26,12 +28,10 @@ bool can_hold(FileFormat format, int channels) {
 }
 
 // Heights and masks have one channel and need finer steps than colours.
-Encoding map_encoding(const Image& map, const Image& texture, const Encoding& encoding) {
-  if (map.channels == texture.channels) return encoding;
-  Encoding of_map;
-  of_map.pixel_type =
-      encoding.pixel_type == PixelType::uint8 ? PixelType::uint16 : encoding.pixel_type;
-  return of_map;
+OutputFormat format_of_own_map(const Image& map, const Image& texture, const OutputFormat& format) {
+  if (map.channels == texture.channels) return format;
+  const PixelType type = format.encoding.pixel_type;
+  return {format.extension, {type == PixelType::uint8 ? PixelType::uint16 : type, "", {}}};
 }
 
 }  // namespace
@@ -49,30 +49,48 @@ OutputFormat output_format(const Config& config, const Encoding& exemplar, int c
   return output;
 }
 
-std::vector<std::string> write_texture(const std::filesystem::path& folder, const std::string& name,
-                                       const Texture& texture, const OutputFormat& format,
+OutputFormats output_formats(const Config& config, const std::vector<Layer>& layers,
+                             const Texture& texture) {
+  const Encoding encoding = layers.empty() ? Encoding() : layers.front().encoding;
+  OutputFormats formats{output_format(config, encoding, texture.image.channels), {}};
+  for (const Layer& layer : layers)
+    if (!layer.map.empty())
+      formats.maps[layer.map] = output_format(config, layer.encoding, layer.channels);
+  for (const auto& [name, map] : texture.maps)
+    if (!formats.maps.contains(name))
+      formats.maps[name] = format_of_own_map(map, texture.image, formats.picture);
+  return formats;
+}
+
+std::vector<std::string> write_texture(const fs::path& folder, const std::string& name,
+                                       const Texture& texture, const OutputFormats& formats,
                                        const Json& settings) {
   Json made_by{{"gramloom", version()}};
   made_by.update(settings);
   const Metadata metadata{
       {"gramloom:settings", made_by.dump(-1, ' ', true, Json::error_handler_t::replace)}};
 
-  std::vector<std::string> files{name + format.extension};
-  write_image(folder / files.front(), texture.image, format.encoding, metadata);
+  std::vector<std::string> files{name + formats.picture.extension};
+  write_image(folder / files.front(), texture.image, formats.picture.encoding, metadata);
   for (const auto& [map_name, map] : texture.maps) {
+    const OutputFormat& format = formats.maps.at(map_name);
     files.push_back(fmt::format("{}_{}{}", name, map_name, format.extension));
-    write_image(folder / files.back(), map, map_encoding(map, texture.image, format.encoding),
-                metadata);
+    write_image(folder / files.back(), map, format.encoding, metadata);
   }
   return files;
 }
 
-void write_exemplar(const std::filesystem::path& folder, const ImageFile& exemplar) {
-  const OutputFormat format = output_format(Config(), exemplar.encoding, exemplar.image.channels);
-  const std::string name = "exemplar" + format.extension;
-  write_image(folder / name, exemplar.image, format.encoding);
-  for (const std::string extension : {".png", ".exr", ".tif"})
-    if (extension != format.extension) remove_file(folder / ("exemplar" + extension));
+void write_exemplar(const fs::path& folder, const Exemplar& exemplar) {
+  const Texture parts = split_layers({exemplar.image, {}}, exemplar.layers);
+  for (const Layer& layer : exemplar.layers) {
+    const bool picture = layer.map.empty();
+    const std::string name = picture ? "exemplar" : "exemplar_" + layer.map;
+    const OutputFormat format = output_format(Config(), layer.encoding, layer.channels);
+    write_image(folder / (name + format.extension),
+                picture ? parts.image : parts.maps.at(layer.map), format.encoding);
+    for (const std::string extension : {".png", ".exr", ".tif"})
+      if (extension != format.extension) remove_file(folder / (name + extension));
+  }
 }
 
 }  // namespace gramloom

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "io/image_file.h"
 #include "jobs/config.h"
+#include "jobs/exemplar.h"
 #include "jobs/settings.h"
 
 namespace gramloom {
@@ -18,14 +20,24 @@ struct OutputFormat {
 };
 OutputFormat output_format(const Config& config, const Encoding& exemplar, int channels);
 
+/// Those of a texture and of its maps by name. A map of the exemplar's keeps its file's encoding;
+/// one that the method thought of has the texture's, with finer steps where it has other channels.
+struct OutputFormats {
+  OutputFormat picture;
+  std::map<std::string, OutputFormat> maps;
+};
+OutputFormats output_formats(const Config& config, const std::vector<Layer>& layers,
+                             const Texture& texture);
+
 /// Writes a texture and its maps as `name` + extension and `name`_<map> + extension in `folder`,
 /// and returns the names of the files, the texture's first. Their metadata is the settings and
 /// nothing that differs from run to run.
 std::vector<std::string> write_texture(const std::filesystem::path& folder, const std::string& name,
-                                       const Texture& texture, const OutputFormat& format,
+                                       const Texture& texture, const OutputFormats& formats,
                                        const Json& settings);
 
-/// Writes the exemplar of results as "exemplar" + extension in `folder`. Throws Error.
-void write_exemplar(const std::filesystem::path& folder, const ImageFile& exemplar);
+/// Writes the exemplar of results and its maps as "exemplar" + extension and "exemplar_"<map> +
+/// extension in `folder`. Throws Error.
+void write_exemplar(const std::filesystem::path& folder, const Exemplar& exemplar);
 
 }  // namespace gramloom

@@ -53,11 +53,12 @@ Made make_texture(Run& run, const PlannedJob& planned, const JobFiles& files, Tr
   return made;
 }
 
-void write_results(Run& run, const PlannedJob& planned, const JobFiles& files,
-                   const Texture& texture, const TraceLog& trace, JobRecord& record) {
-  const OutputFormat format =
-      output_format(run.config, exemplar_of(run, planned.job).encoding, texture.image.channels);
-  record.files = write_texture(files.folder, files.name, texture, format, record.settings);
+void write_results(Run& run, const PlannedJob& planned, const JobFiles& files, Texture joined,
+                   const TraceLog& trace, JobRecord& record) {
+  const std::vector<Layer>& layers = exemplar_of(run, planned.job).layers;
+  const Texture texture = split_layers(std::move(joined), layers);
+  record.files = write_texture(files.folder, files.name, texture,
+                               output_formats(run.config, layers, texture), record.settings);
   record.loss = summarise(trace.trace());
   if (record.loss)
     write_text(files.trace, to_csv(trace.trace()));
@@ -72,17 +73,16 @@ void do_job(Run& run, const PlannedJob& planned, const JobFiles& files, bool kee
             JobRecord& record) {
   refuse_if_impossible(run, planned);
   // Known before the work where the exemplar says it.
-  if (planned.job.exemplar) {
-    const ExemplarFacts& facts = run.plan.exemplars[*planned.job.exemplar];
-    output_format(run.config, facts.encoding, facts.channels);
-  }
+  if (planned.job.exemplar)
+    for (const Layer& layer : run.plan.exemplars[*planned.job.exemplar].layers)
+      output_format(run.config, layer.encoding, layer.channels);
   TraceLog trace(files.checkpoint_trace, hash_of(record.settings.dump()));
   if (!run.options.resume || !trace.continues() || !exists(files.checkpoint)) {
     trace.restart();
     remove_file(files.checkpoint);
   }
   reset_peak_memory();
-  const Made made = make_texture(run, planned, files, trace);
+  Made made = make_texture(run, planned, files, trace);
   record.seconds = trace.seconds();
   record.peak_memory_mb = peak_memory() / 1e6;
   if (made.stopped && keep_old) return;
@@ -90,13 +90,13 @@ void do_job(Run& run, const PlannedJob& planned, const JobFiles& files, bool kee
     record.status = Status::done;
     record.error.clear();
   }
-  write_results(run, planned, files, made.texture, trace, record);
+  write_results(run, planned, files, std::move(made.texture), trace, record);
   if (!made.stopped) remove_unfinished_state(files);
 }
 
 }  // namespace
 
-const ImageFile& exemplar_of(Run& run, const Job& job) {
+const Exemplar& exemplar_of(Run& run, const Job& job) {
   if (run.loaded != job.exemplar) {
     run.loaded.reset();
     run.exemplar = {};

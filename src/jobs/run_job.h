@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/progress.h"
-#include "io/image_file.h"
+#include "jobs/exemplar.h"
 #include "jobs/plan.h"
 #include "jobs/record.h"
 #include "jobs/runner.h"
@@ -18,13 +18,13 @@ struct Run {
   const Plan& plan;
   ProgressBar& bar;
   std::optional<std::size_t> loaded;
-  ImageFile exemplar;
+  Exemplar exemplar;
 
   bool stopped() const { return options.stop && options.stop(); }
 };
 
 /// The exemplar of a job, empty where it has none. Throws Error.
-const ImageFile& exemplar_of(Run& run, const Job& job);
+const Exemplar& exemplar_of(Run& run, const Job& job);
 
 /// Shows the progress of work that leaves nothing to keep when the user stops it.
 Control shown_work(Run& run);

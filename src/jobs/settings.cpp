@@ -35,6 +35,19 @@ Json hashes_of_files(const Method& method) {
   return hashes;
 }
 
+// An exemplar and its maps; files by their name and content, so that it may lie elsewhere.
+Json exemplar_settings(const ExemplarEntry& exemplar, const std::vector<std::string>& hashes) {
+  // Those of a file that cannot be read are not known, and its jobs fail.
+  const auto hash = [&](std::size_t layer) { return layer < hashes.size() ? hashes[layer] : ""; };
+  Json settings{{"image", exemplar.image.filename().string()},
+                {"max_side", value_to_json(exemplar.max_side, {})},
+                {"hash", hash(0)}};
+  std::size_t layer = 0;
+  for (const auto& [name, file] : exemplar.maps)
+    settings["maps"][name] = {{"image", file.filename().string()}, {"hash", hash(++layer)}};
+  return settings;
+}
+
 }  // namespace
 
 Json method_to_json(const Method& method, const fs::path& folder) {
@@ -56,12 +69,9 @@ Json job_settings(const Config& config, const Plan& plan, const Job& job) {
   const Method& method = config.methods[job.method].method;
   Json settings{{"method", method_to_json(method, config.file.parent_path())}};
   if (const Json files = hashes_of_files(method); !files.empty()) settings["files"] = files;
-  if (job.exemplar) {
-    const ExemplarEntry& exemplar = config.exemplars[*job.exemplar];
-    settings["exemplar"] = {{"image", exemplar.image.filename().string()},
-                            {"max_side", value_to_json(exemplar.max_side, {})},
-                            {"hash", plan.exemplars[*job.exemplar].hash}};
-  }
+  if (job.exemplar)
+    settings["exemplar"] =
+        exemplar_settings(config.exemplars[*job.exemplar], plan.exemplars[*job.exemplar].hashes);
   settings["seed"] = job.seed;
   settings["size"] = value_to_json(config.size, {});
   settings["tile"] = value_to_json(config.tile, {});

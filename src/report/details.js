@@ -24,6 +24,8 @@ function scoreList(job) {
 function toToml(value) {
   if (value === 'inf' || value === '-inf') return value;
   if (Array.isArray(value)) return `[${value.map(toToml).join(', ')}]`;
+  if (typeof value === 'object')
+    return `{ ${Object.entries(value).map(([key, own]) => `${toToml(key)} = ${toToml(own)}`).join(', ')} }`;
   if (typeof value === 'string') return JSON.stringify(value).replaceAll('\x7f', '\\u007F');
   return String(value);
 }
@@ -34,9 +36,13 @@ function configOf(job) {
   const lines = (object) => Object.entries(object).filter(([, value]) => value !== null)
     .map(([key, value]) => `${key} = ${toToml(value)}`);
   const source = data.exemplars.find(({ name }) => name === job.exemplar);
+  const maps = Object.entries(exemplar?.maps ?? {})
+    .map(([name, { image }]) => [name, source?.maps?.[name] ?? image]);
   return [`seeds = [${seed ?? job.seed}]`, ...lines(rest),
     ...(exemplar ? ['', '[[exemplar]]', `name = ${toToml(job.exemplar)}`,
-      ...lines({ image: source?.image ?? exemplar.image, max_side: exemplar.max_side ?? null })] : []),
+      ...lines({ image: source?.image ?? exemplar.image,
+        maps: maps.length > 0 ? Object.fromEntries(maps) : null,
+        max_side: exemplar.max_side ?? null })] : []),
     '', '[[method]]', `name = ${toToml(job.method)}`, ...lines(method)].join('\n') + '\n';
 }
 
@@ -53,7 +59,8 @@ function drawDetails(subject) {
   const job = subject.job;
   if (!job) return el('div', { class: 'details' },
     el('p', {}, `${subject.width} × ${subject.height} pixels, as the methods saw it.`),
-    el('p', {}, el('a', { href: address(subject.views[0].file) }, 'the picture')));
+    el('p', {}, subject.views.map(({ label, file }, i) =>
+      [i ? ', ' : '', el('a', { href: address(file) }, i ? label : 'the picture')])));
   const settings = configOf(job);
   const command = commandOf(job);
   return el('div', { class: 'details' },
@@ -76,7 +83,8 @@ function drawDetails(subject) {
       data.run.config && el('p', { class: 'small' }, 'Paths are relative to the folder of ',
         el('code', {}, data.run.config), '.')],
     el('p', { class: 'small' }, 'Files: ',
-      [[subject.views[0]?.file, 'picture'], [`${job.name}.json`, 'record'],
+      [...job.pictures.slice(0, job.pictures.length > 6 ? 1 : 6)  // not every frame of a sequence
+        .map(({ label, file }) => [file, label]), [`${job.name}.json`, 'record'],
         [job.trace && `${job.name}.csv`, 'losses']].filter(([file, text]) => file &&
           (text !== 'record' || job.status !== 'waiting'))
         .map(([file, text], i) => [i ? ', ' : '', el('a', { href: address(file) }, text)])));

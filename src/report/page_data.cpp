@@ -18,8 +18,14 @@ constexpr std::size_t trace_points = 300;
 
 // What the folder holds of one exemplar.
 struct Source {
-  Json shown;  // its entry in the data
-  double white = 1;
+  Json shown;        // its entry in the data
+  double white = 1;  // of its picture
+  std::map<std::string, double> map_whites;
+
+  double white_of_view(const std::string& label) const {
+    const auto map = map_whites.find(label);
+    return map == map_whites.end() ? white : map->second;
+  }
 };
 
 Json metrics_to_json() {
@@ -42,27 +48,51 @@ Json part(const Json& object, std::initializer_list<const char*> keys) {
   return chosen;
 }
 
-// The exemplar as the methods saw it: the run keeps it as exemplar.<its format>.
-std::string exemplar_file(const fs::path& folder, const std::string& name) {
+// The exemplar as the methods saw it: the run keeps it as exemplar.<its format> and its maps as
+// exemplar_<map>.<its format>: "exemplar", "exemplar_height".
+std::string exemplar_file(const fs::path& folder, const std::string& name,
+                          const std::string& stem) {
   std::error_code ignored;
   for (const auto* extension : {".png", ".exr", ".tif"})
-    if (const std::string file = name + "/exemplar" + extension;
+    if (const std::string file = fmt::format("{}/{}{}", name, stem, extension);
         fs::is_regular_file(folder / file, ignored))
       return file;
   return "";
 }
 
-// Where the config says the exemplar is, relative to the config.
-Json path_in_config(const Json& run, const std::string& name) {
+// What the config says of the exemplar; its paths are relative to the config.
+Json exemplar_in_config(const Json& run, const std::string& name) {
   for (const auto& exemplar : run.value("/settings/exemplar"_json_pointer, Json::array()))
-    if (exemplar.value("name", "") == name) return exemplar.value("image", "");
-  return nullptr;
+    if (exemplar.value("name", "") == name) return exemplar;
+  return Json::object();
+}
+
+// The maps of the exemplar that the folder holds.
+void read_maps(const RunOnDisk& run, const std::string& name, Source& source, Json& trouble) {
+  for (const auto& [map, path] : source.shown["maps"].items()) {
+    const std::string file = exemplar_file(run.folder, name, "exemplar_" + map);
+    if (file.empty()) continue;
+    try {
+      const double white = white_of(read_image(run.folder / file));
+      source.map_whites[map] = white;
+      source.shown["map_pictures"].push_back(
+          {{"label", map}, {"file", shown_file(run.folder, file, white)}});
+    } catch (const std::exception& error) {
+      trouble.push_back(error.what());
+    }
+  }
 }
 
 Source read_source(const RunOnDisk& run, const std::string& name, Json& trouble) {
-  Source source{{{"name", name}, {"picture", nullptr}, {"image", path_in_config(run.run, name)}},
-                1};
-  const std::string file = exemplar_file(run.folder, name);
+  const Json config = exemplar_in_config(run.run, name);
+  Source source;
+  source.shown = {{"name", name},
+                  {"picture", nullptr},
+                  {"image", config.value("image", Json())},
+                  {"maps", config.value("maps", Json::object())},
+                  {"map_pictures", Json::array()}};
+  read_maps(run, name, source, trouble);
+  const std::string file = exemplar_file(run.folder, name, "exemplar");
   if (file.empty()) return source;
   try {
     const ImageFile exemplar = read_image(run.folder / file);
@@ -83,15 +113,16 @@ std::string label_of(const std::string& job, const std::string& file) {
   return stem.starts_with(own) ? stem.substr(own.size()) : "picture";
 }
 
-Json pictures_of(const RunOnDisk& run, const JobOnDisk& job, double white, Json& trouble) {
+Json pictures_of(const RunOnDisk& run, const JobOnDisk& job, const Source& source, Json& trouble) {
   Json pictures = Json::array();
   for (const auto& file : job.record.value("files", Json::array())) {
     try {
       const std::string name = file.get<std::string>();
       if (fs::path(name).filename() != name) throw Error("{}: {} is elsewhere", job.name, name);
       const std::string path = (fs::path(job.name).parent_path() / name).generic_string();
+      const std::string label = label_of(job.name, name);
       pictures.push_back(
-          {{"label", label_of(job.name, name)}, {"file", shown_file(run.folder, path, white)}});
+          {{"label", label}, {"file", shown_file(run.folder, path, source.white_of_view(label))}});
     } catch (const std::exception& error) {
       trouble.push_back(error.what());
     }
@@ -109,12 +140,12 @@ Json file_in_folder(const RunOnDisk& run, const Json& name) {
                                                                    : Json(nullptr);
 }
 
-Json job_to_json(const RunOnDisk& run, const JobOnDisk& job, double white, Json& trouble) {
+Json job_to_json(const RunOnDisk& run, const JobOnDisk& job, const Source& source, Json& trouble) {
   Json shown{{"name", job.name}};
   shown.update(
       part(job.record, {"exemplar", "method", "kind", "seed", "width", "height", "status", "error",
                         "seconds", "peak_memory_mb", "settings", "metrics", "score_error"}));
-  shown["pictures"] = pictures_of(run, job, white, trouble);
+  shown["pictures"] = pictures_of(run, job, source, trouble);
   shown["copy_map"] = file_in_folder(run, job.record.value("copy_map", Json()));
   shown["trace"] = job.trace.rows.empty() ? Json() : thin_trace(job.trace, trace_points);
   return shown;
@@ -149,18 +180,17 @@ Json page_data(const RunOnDisk& run) {
   Json exemplars = Json::array();
   Json methods = Json::array();
   Json jobs = Json::array();
-  std::map<std::string, double> whites;
+  std::map<std::string, Source> sources;
   for (const JobOnDisk& job : run.jobs) {
     const std::string exemplar = job.record.at("exemplar");
-    if (!whites.contains(exemplar)) {
-      const Source source = read_source(run, exemplar, trouble);
-      whites[exemplar] = source.white;
-      exemplars.push_back(source.shown);
+    if (!sources.contains(exemplar)) {
+      sources[exemplar] = read_source(run, exemplar, trouble);
+      exemplars.push_back(sources[exemplar].shown);
     }
     if (const Json& method = job.record.at("method");
         std::find(methods.begin(), methods.end(), method) == methods.end())
       methods.push_back(method);
-    jobs.push_back(job_to_json(run, job, whites[exemplar], trouble));
+    jobs.push_back(job_to_json(run, job, sources[exemplar], trouble));
   }
   return {{"title", title_of(run)},
           {"run", part(run.run, {"date", "command", "config", "set", "versions", "machine"})},

@@ -4,7 +4,7 @@
 const subjects = data.exemplars.flatMap((exemplar) => [
   ...(exemplar.picture ? [{ id: exemplar.name, exemplar: exemplar.name, job: null,
     title: 'exemplar', width: exemplar.picture.width, height: exemplar.picture.height,
-    views: [{ label: 'picture', file: exemplar.picture.file }] }] : []),
+    views: [{ label: 'picture', file: exemplar.picture.file }, ...exemplar.map_pictures] }] : []),
   ...data.jobs.filter((job) => job.exemplar === exemplar.name).map((job) => ({
     id: job.name, exemplar: exemplar.name, job, title: jobLabel(job),
     width: job.width ?? 128, height: job.height ?? 128,
