@@ -33,7 +33,7 @@ bool job_matches(const std::string& pattern, const std::string& job);
 /// What is known of an exemplar before its jobs run.
 struct ExemplarFacts {
   Size size;  // after max_side
-  std::vector<Layer> layers;
+  std::vector<ExemplarLayer> layers;
   std::vector<std::string> hashes;  // of each layer's file
   std::string error;                // why it cannot be read; its jobs fail with this
 };

@@ -49,11 +49,11 @@ OutputFormat output_format(const Config& config, const Encoding& exemplar, int c
   return output;
 }
 
-OutputFormats output_formats(const Config& config, const std::vector<Layer>& layers,
+OutputFormats output_formats(const Config& config, const std::vector<ExemplarLayer>& layers,
                              const Texture& texture) {
   const Encoding encoding = layers.empty() ? Encoding() : layers.front().encoding;
   OutputFormats formats{output_format(config, encoding, texture.image.channels), {}};
-  for (const Layer& layer : layers)
+  for (const ExemplarLayer& layer : layers)
     if (!layer.map.empty())
       formats.maps[layer.map] = output_format(config, layer.encoding, layer.channels);
   for (const auto& [name, map] : texture.maps)
@@ -82,7 +82,7 @@ std::vector<std::string> write_texture(const fs::path& folder, const std::string
 
 void write_exemplar(const fs::path& folder, const Exemplar& exemplar) {
   const Texture parts = split_layers({exemplar.image, {}}, exemplar.layers);
-  for (const Layer& layer : exemplar.layers) {
+  for (const ExemplarLayer& layer : exemplar.layers) {
     const bool picture = layer.map.empty();
     const std::string name = picture ? "exemplar" : "exemplar_" + layer.map;
     const OutputFormat format = output_format(Config(), layer.encoding, layer.channels);

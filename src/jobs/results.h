@@ -26,7 +26,7 @@ struct OutputFormats {
   OutputFormat picture;
   std::map<std::string, OutputFormat> maps;
 };
-OutputFormats output_formats(const Config& config, const std::vector<Layer>& layers,
+OutputFormats output_formats(const Config& config, const std::vector<ExemplarLayer>& layers,
                              const Texture& texture);
 
 /// Writes a texture and its maps as `name` + extension and `name`_<map> + extension in `folder`,

@@ -55,7 +55,7 @@ Made make_texture(Run& run, const PlannedJob& planned, const JobFiles& files, Tr
 
 void write_results(Run& run, const PlannedJob& planned, const JobFiles& files, Texture joined,
                    const TraceLog& trace, JobRecord& record) {
-  const std::vector<Layer>& layers = exemplar_of(run, planned.job).layers;
+  const std::vector<ExemplarLayer>& layers = exemplar_of(run, planned.job).layers;
   const Texture texture = split_layers(std::move(joined), layers);
   record.files = write_texture(files.folder, files.name, texture,
                                output_formats(run.config, layers, texture), record.settings);
@@ -74,7 +74,7 @@ void do_job(Run& run, const PlannedJob& planned, const JobFiles& files, bool kee
   refuse_if_impossible(run, planned);
   // Known before the work where the exemplar says it.
   if (planned.job.exemplar)
-    for (const Layer& layer : run.plan.exemplars[*planned.job.exemplar].layers)
+    for (const ExemplarLayer& layer : run.plan.exemplars[*planned.job.exemplar].layers)
       output_format(run.config, layer.encoding, layer.channels);
   TraceLog trace(files.checkpoint_trace, hash_of(record.settings.dump()));
   if (!run.options.resume || !trace.continues() || !exists(files.checkpoint)) {

@@ -41,7 +41,7 @@ std::string config_text() {
   return "seeds = [1, 2]\nsize = [48, 40]\ntile = 'both'\n"
          "[[exemplar]]\nname = \"" +
          odd_name +
-         "\"\nimage = 'e.png'\n"
+         "\"\nimage = 'e.png'\nmaps = { 'wet & rough' = 'f.png' }\n"
          "[[exemplar]]\nname = 'plain'\nimage = 'f.png'\n"
          "[[exemplar]]\nname = 'broken'\nimage = '" +
          broken_path +

@@ -87,6 +87,27 @@ TEST_F(PageData, HoldsWhatTheFolderHolds) {
   EXPECT_EQ(job["trace"]["loss"], Json({9.0, 3.0}));
 }
 
+TEST_F(PageData, HoldsTheMapsOfAnExemplar) {
+  write_run({{"brick/q/seed1", {{"status", "done"}}}},
+            {{"settings",
+              {{"exemplar",
+                {{{"name", "brick"},
+                  {"image", "brick.png"},
+                  {"maps", {{"height", "h.exr"}, {"gone", "g.png"}}}}}}}}});
+  write_job("brick/q/seed1", {{"files", {"seed1.png", "seed1_height.exr"}}});
+  write_image(path() / "brick/exemplar.png", Image(5, 3, 3), {});
+  for (const std::string name : {"brick/exemplar_height.exr", "brick/q/seed1_height.exr"})
+    write_image(path() / name, Image(5, 3, 1, 40.0f), {PixelType::half, "", {}});
+  const Json data = read();
+  EXPECT_EQ(data["exemplars"][0]["maps"], (Json{{"height", "h.exr"}, {"gone", "g.png"}}));
+  EXPECT_EQ(data["exemplars"][0]["map_pictures"],
+            Json({{{"label", "height"}, {"file", "page/brick/exemplar_height.exr.png"}}}));
+  EXPECT_EQ(data["jobs"][0]["pictures"][1],
+            (Json{{"label", "height"}, {"file", "page/brick/q/seed1_height.exr.png"}}));
+  const float white = read_image(path() / "page/brick/q/seed1_height.exr.png").image.pixels[0];
+  EXPECT_EQ(white, 1.0f) << "its own range, not the picture's";
+}
+
 TEST_F(PageData, HasEveryMetricWithItsDirection) {
   write_run(Json::object());
   const Json list = read()["metrics"];
