@@ -3,6 +3,7 @@
 #include <torch/csrc/autograd/autograd.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace gramloom::neural {
 
@@ -83,31 +84,36 @@ double AutocorrelationTerm::add(const at::Tensor& picture, double weight, std::u
 }
 
 SpectrumTerm::SpectrumTerm(const at::Tensor& exemplar, Size target) {
-  // Lags that both pictures know, faded out towards the largest.
   const Size lags{std::max(1, std::min(static_cast<int>(exemplar.size(2)), target.width) / 2),
                   std::max(1, std::min(static_cast<int>(exemplar.size(1)), target.height) / 2)};
   const at::Tensor known = autocorrelation(centred(exemplar), lags, Tile::none);
-  const auto fade = [&](int count) {
-    const at::Tensor t = at::arange(-count + 1, count, exemplar.options()) / count;
-    return (t * 3.14159265358979).cos().add(1).div(2);
+  const auto fade = [](int lag, int count) {
+    return 0.5 + 0.5 * std::cos(3.14159265358979 * lag / count);
   };
-  const at::Tensor faded = known *
-                           fade(lags.height).narrow(0, lags.height - 1, lags.height).view({-1, 1}) *
-                           fade(lags.width).view({1, -1});
   // On the torus of the result, with the negative dy by symmetry.
   at::Tensor torus = at::zeros({exemplar.size(0), target.height, target.width}, exemplar.options());
+  fade_ = at::zeros({target.height, target.width}, exemplar.options());
   for (int dy = 0; dy < lags.height; ++dy)
     for (int dx = -lags.width + 1; dx < lags.width; ++dx) {
-      const at::Tensor value = faded.select(1, dy).select(1, dx + lags.width - 1);
-      torus.select(1, dy).select(1, (dx + target.width) % target.width).copy_(value);
-      torus.select(1, (target.height - dy) % target.height)
-          .select(1, (target.width - dx) % target.width)
-          .copy_(value);
+      const double value = fade(dy, lags.height) * fade(dx, lags.width);
+      for (const int sign : {1, -1}) {
+        const int y = (target.height + sign * dy) % target.height;
+        const int x = (target.width + sign * dx) % target.width;
+        torus.select(1, y).select(1, x).copy_(known.select(1, dy).select(1, dx + lags.width - 1));
+        fade_.select(0, y).select(0, x).fill_(value);
+      }
     }
-  const double positions = static_cast<double>(target.width) * target.height;
-  goal_ = at::real(at::fft_rfft2(torus)).clamp_min(0).mul(positions).sqrt();
-  goal_.select(1, 0).select(1, 0).zero_();
-  scale_ = inverse_of_sum(goal_.square());
+  const std::int64_t columns = target.width / 2 + 1;
+  weight_ = at::full({columns}, 2.0, exemplar.options());
+  weight_[0] = 1;
+  if (target.width % 2 == 0) weight_[columns - 1] = 1;
+  goal_ = modulus(torus);
+  scale_ = inverse_of_sum(goal_.square() * weight_);
+}
+
+at::Tensor SpectrumTerm::modulus(const at::Tensor& correlation) const {
+  // The root has no derivative at 0.
+  return (at::real(at::fft_rfft2(correlation * fade_)).clamp_min(0) + 1e-6).sqrt();
 }
 
 double SpectrumTerm::add(const at::Tensor& picture, double weight, std::uint64_t,
@@ -115,8 +121,10 @@ double SpectrumTerm::add(const at::Tensor& picture, double weight, std::uint64_t
   return add_gradient(picture, weight, gradient, [&](const at::Tensor& x) {
     const at::Tensor transformed = at::fft_rfft2(centred(x));
     const at::Tensor power = at::real(transformed * at::conj(transformed));
-    // The modulus has no derivative at 0.
-    return ((power + 1e-6).sqrt() - goal_).square().sum() * scale_;
+    const std::vector<std::int64_t> shape{x.size(1), x.size(2)};
+    const at::Tensor correlation =
+        at::fft_irfft2(power, shape) / static_cast<double>(x.size(1) * x.size(2));
+    return ((modulus(correlation) - goal_).square() * weight_).sum() * scale_;
   });
 }
 

@@ -35,8 +35,9 @@ class AutocorrelationTerm {
 
 /// Σ (|X| − |X̂|)² / Σ |X̂|² over all frequencies but 0: the Fourier modulus (Liu, Gousseau, Xia
 /// 2016, "Texture synthesis through convolutional neural networks and spectrum constraints",
-/// equation 7). Departure: |X̂| is the square root of the transformed autocorrelation of the
-/// exemplar, which serves a result of any size and does not see where the exemplar ends.
+/// equation 7). Departure: |X|² is the transform of the autocorrelation up to half the exemplar's
+/// sides, faded out towards there: it serves results of any size, does not see where the exemplar
+/// ends, and does not ask for the exemplar's very frequencies, which another size may not have.
 class SpectrumTerm {
  public:
   static constexpr std::string_view name = "spectrum";
@@ -45,7 +46,11 @@ class SpectrumTerm {
              at::Tensor& gradient) const;
 
  private:
-  at::Tensor goal_;  // (channels, height, width / 2 + 1), 0 at frequency 0
+  at::Tensor modulus(const at::Tensor& correlation) const;
+
+  at::Tensor fade_;    // (height, width) of the lags on the torus of the result
+  at::Tensor weight_;  // of each column of a real transform: how many frequencies it stands for
+  at::Tensor goal_;    // (channels, height, width / 2 + 1)
   double scale_ = 0;
 };
 

@@ -198,7 +198,8 @@ class Iterative : public Interruption {
     write_text(folder_ / "gram.toml",
                fmt::format("size = [32, 32]\n"
                            "[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"
-                           "[[method]]\nname = 'gram'\nkind = 'neural'\nnetwork = 'vgg_small'\n"
+                           "[[method]]\nname = 'gram'\nkind = 'neural'\npreset = 'gatys'\n"
+                           "network = 'vgg_small'\n"
                            "iterations = {}\n",
                            iterations));
   }
