@@ -113,7 +113,7 @@ SpectrumTerm::SpectrumTerm(const at::Tensor& exemplar, Size target) {
 
 at::Tensor SpectrumTerm::modulus(const at::Tensor& correlation) const {
   // The root has no derivative at 0.
-  return (at::real(at::fft_rfft2(correlation * fade_)).clamp_min(0) + 1e-6).sqrt();
+  return (at::real(at::fft_rfft2(correlation * fade_)).clamp_min(0) + 1e-8).sqrt();
 }
 
 double SpectrumTerm::add(const at::Tensor& picture, double weight, std::uint64_t,
