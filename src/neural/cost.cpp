@@ -106,6 +106,10 @@ double seconds_of_step(const NeuralParams& params, const Work& network, const Sl
 
 Cost estimate(const NeuralParams& params, Size exemplar, int channels, const Target& target) {
   check_settings(params);
+  const bool circular = params.padding == Padding::circular;
+  if (params.sliced_weight > 0)
+    check_patches_fit(params.patch_sizes, exemplar, target.size,
+                      wrapping(circular || tiles_x(target.tile), circular || tiles_y(target.tile)));
   const auto pixels = [](Size size) { return static_cast<double>(size.width) * size.height; };
   Work result, own;
   if (params.gram_weight > 0) {
@@ -133,7 +137,7 @@ Cost estimate(const NeuralParams& params, Size exemplar, int channels, const Tar
                     std::max(1.5 * result.kept + 5 * result.largest, own.kept + 3 * own.largest) +
                     2 * kept + 9 * picture + 4 * pixels(exemplar) * channels);
   cost.seconds = start_seconds + own.operations / 2 / operations_per_second;
-  for (int level = 0; level < level_count(params, exemplar); ++level) {
+  for (int level = 0; level < level_count(params, exemplar, target.size); ++level) {
     const double area = std::pow(params.level_factor, 2 * level);
     const Work part{result.operations * area, 0, 0, 0, 0};
     const SlicedWork share{sliced.operations * area, sliced.sorted * area, 0};

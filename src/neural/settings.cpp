@@ -10,14 +10,17 @@
 
 namespace gramloom::neural {
 
-int level_count(const NeuralParams& params, Size exemplar) {
+int level_count(const NeuralParams& params, Size exemplar, Size target) {
   if (params.levels > 0) return params.levels;
+  const int patch = *std::max_element(params.patch_sizes.begin(), params.patch_sizes.end());
   int levels = 1;
-  const auto side = [&] {
-    const Size size = level_size(params, exemplar, levels);
+  const auto shorter_side = [&](Size whole) {
+    const Size size = level_size(params, whole, levels);
     return std::min(size.width, size.height);
   };
-  while (side() >= params.coarsest_side) ++levels;
+  while (shorter_side(exemplar) >= std::max(params.coarsest_side, patch) &&
+         shorter_side(target) >= patch)
+    ++levels;
   return levels;
 }
 

@@ -15,8 +15,9 @@ const T& at_level(const std::vector<T>& list, int level) {
   return list[std::min(static_cast<std::size_t>(level), list.size() - 1)];
 }
 
-/// Levels of the pyramid for that exemplar.
-int level_count(const NeuralParams& params, Size exemplar);
+/// Levels of the pyramid. Chosen by coarsest_side, they end where a patch would no longer fit into
+/// the exemplar or the result.
+int level_count(const NeuralParams& params, Size exemplar, Size target);
 /// The size of a picture on a level.
 Size level_size(const NeuralParams& params, Size whole, int level);
 /// Steps of all levels but those finer than `level`.

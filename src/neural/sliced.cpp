@@ -10,10 +10,10 @@ namespace gramloom::neural {
 
 namespace {
 
-void check_fit(const char* what, std::int64_t height, std::int64_t width, Tile wraps, int side) {
-  if ((tiles_y(wraps) || height >= side) && (tiles_x(wraps) || width >= side)) return;
-  throw Error("the {} of {}×{} is too small for patches of {}×{}: make patch_sizes smaller", what,
-              width, height, side, side);
+void check_fit(const char* what, Size size, Tile wraps, int side) {
+  if ((tiles_y(wraps) || size.height >= side) && (tiles_x(wraps) || size.width >= side)) return;
+  throw Error("the {0} of {1}×{2} is too small for patches of {3}×{3}: make patch_sizes smaller",
+              what, size.width, size.height, side);
 }
 
 // Calls f(some of the filters), few enough for that many positions.
@@ -26,6 +26,14 @@ void for_each_group(const at::Tensor& filters, std::int64_t positions, F&& f) {
 
 }  // namespace
 
+void check_patches_fit(const std::vector<int>& patch_sizes, Size exemplar, Size target,
+                       Tile wraps) {
+  for (const int side : patch_sizes) {
+    check_fit("exemplar", exemplar, Tile::none, side);
+    check_fit("texture", target, wraps, side);
+  }
+}
+
 SlicedTerm::SlicedTerm(at::Tensor exemplar, Size target, Tile wraps, std::vector<int> patch_sizes,
                        int directions, Random random)
     : exemplar_(std::move(exemplar)),
@@ -33,10 +41,9 @@ SlicedTerm::SlicedTerm(at::Tensor exemplar, Size target, Tile wraps, std::vector
       patch_sizes_(std::move(patch_sizes)),
       directions_(directions),
       random_(random) {
-  for (const int side : patch_sizes_) {
-    check_fit("exemplar", exemplar_.size(1), exemplar_.size(2), Tile::none, side);
-    check_fit("texture", target.height, target.width, wraps, side);
-  }
+  check_patches_fit(patch_sizes_,
+                    {static_cast<int>(exemplar_.size(2)), static_cast<int>(exemplar_.size(1))},
+                    target, wraps);
   for_each_group(filters(0), exemplar_.numel() / exemplar_.size(0), [&](const at::Tensor& some) {
     at::Tensor values = project_patches(exemplar_, some, Tile::none);
     values.sub_(values.mean(1, true)).abs_();

@@ -9,6 +9,10 @@
 
 namespace gramloom::neural {
 
+/// Throws Error when the exemplar, or the result on an axis that does not wrap, is smaller than one
+/// of the patches.
+void check_patches_fit(const std::vector<int>& patch_sizes, Size exemplar, Size target, Tile wraps);
+
 /// The sliced Wasserstein distance between the patches of two pictures (Heitz, Vanhoey, Chambon,
 /// Belcour 2021, equation 6, with W₁ for W₂ and patches for a network's features; as Elnekave,
 /// Weiss 2022, "Generating natural images with direct patch distributions matching"): along each

@@ -73,7 +73,7 @@ class Synthesis {
         random_(random),
         control_(control),
         principal_(colour_pca(exemplar)),
-        levels_(level_count(params, exemplar.size())),
+        levels_(level_count(params, exemplar.size(), target.size)),
         start_(Clock::now()) {
     if (params.gram_weight > 0) {
       description_ = read_network(find_network(params.network));

@@ -189,6 +189,26 @@ TEST(Neural, HistogramMatchingGivesTheExemplarsValues) {
   EXPECT_EQ(sorted(result), sorted(exemplar));
 }
 
+// The exemplar has room for many levels; the texture, which does not wrap, has not.
+TEST(Neural, LevelsEndWhereAPatchNoLongerFits) {
+  for (const Size size : {Size{16, 40}, Size{9, 9}}) {
+    NeuralParams params;
+    params.padding = Padding::reflect;
+    params.iterations = {2};
+    const Target target{size, Tile::none};
+    EXPECT_EQ(run(params, stripes({160, 200}, 3), target).size(), size);
+    params.coarsest_side = 4;
+    EXPECT_EQ(run(params, stripes({40, 30}, 1), {{64, 64}, Tile::both}).width, 64);
+  }
+}
+
+TEST(Neural, WhatIsSmallerThanAPatchIsRefusedBeforehand) {
+  const NeuralParams params;
+  const Target target{{64, 64}, Tile::both};
+  EXPECT_NO_THROW(estimate(params, {7, 7}, 3, target));
+  EXPECT_THROW(estimate(params, {6, 40}, 3, target), Error);
+}
+
 class Interrupted : public testing::TestWithParam<Optimizer> {};
 
 TEST_P(Interrupted, GoesOnToTheSameBytes) {
@@ -366,13 +386,13 @@ TEST(Neural, LevelsByTheCoarsestSide) {
   params.levels = 0;
   params.level_factor = 0.5;
   params.coarsest_side = 32;
-  EXPECT_EQ(neural::level_count(params, {256, 256}), 4);  // 256, 128, 64, 32
-  EXPECT_EQ(neural::level_count(params, {300, 120}), 2);  // the shorter side: 120, 60
-  EXPECT_EQ(neural::level_count(params, {20, 20}), 1);
+  EXPECT_EQ(neural::level_count(params, {256, 256}, {256, 256}), 4);  // 256, 128, 64, 32
+  EXPECT_EQ(neural::level_count(params, {300, 120}, {256, 256}), 2);  // the shorter side: 120, 60
+  EXPECT_EQ(neural::level_count(params, {20, 20}, {256, 256}), 1);
   params.coarsest_side = 33;
-  EXPECT_EQ(neural::level_count(params, {256, 256}), 3);
+  EXPECT_EQ(neural::level_count(params, {256, 256}, {256, 256}), 3);
   params.levels = 7;
-  EXPECT_EQ(neural::level_count(params, {256, 256}), 7);
+  EXPECT_EQ(neural::level_count(params, {256, 256}, {256, 256}), 7);
 }
 
 TEST(Neural, ListsAreReadFromTheFinestLevel) {
