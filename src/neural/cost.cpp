@@ -106,10 +106,9 @@ double seconds_of_step(const NeuralParams& params, const Work& network, const Sl
 
 Cost estimate(const NeuralParams& params, Size exemplar, int channels, const Target& target) {
   check_settings(params);
-  const bool circular = params.padding == Padding::circular;
   if (params.sliced_weight > 0)
-    check_patches_fit(params.patch_sizes, exemplar, target.size,
-                      wrapping(circular || tiles_x(target.tile), circular || tiles_y(target.tile)));
+    check_patches_fit(params.patch_sizes, exemplar, target.size, target.tile);
+  const Size canvas = canvas_size(params, target);
   const auto pixels = [](Size size) { return static_cast<double>(size.width) * size.height; };
   Work result, own;
   if (params.gram_weight > 0) {
@@ -117,27 +116,30 @@ Cost estimate(const NeuralParams& params, Size exemplar, int channels, const Tar
     const auto layers = matched_layers(params, network);
     check_weights(params, network, channels);
     const auto shapes = filter_shapes(network, channels);
-    result = count(network, shapes, layers, target.size, channels);
+    result = count(network, shapes, layers, canvas, channels);
     own = count(network, shapes, layers, exemplar, channels);
     const double shifted = 1 + 4 * static_cast<double>(params.shifts.size()) / 3;
     result.operations *= shifted;
     // The gradient needs each shifted copy of the maps, and both as rows.
     result.kept += 4 * 3 * static_cast<double>(params.shifts.size()) * result.matched;
   }
-  const SlicedWork sliced = count_sliced(params, pixels(target.size), pixels(exemplar), channels);
-  const double picture = pixels(target.size) * channels;
+  const SlicedWork sliced = count_sliced(params, pixels(canvas), pixels(exemplar), channels);
+  const double picture = pixels(canvas) * channels;
   const bool remembers = std::find(params.optimizer.begin(), params.optimizer.end(),
                                    Optimizer::lbfgs) != params.optimizer.end();
   Cost cost;
   // A checkpoint is put together in memory: all that the optimiser keeps is there once more.
+  // Fourier transforms and differences of the terms that look at the whole picture.
+  const bool whole =
+      params.spectrum_weight + params.autocorrelation_weight + params.variation_weight > 0;
   const double kept = picture * (remembers ? 2.0 * params.history : 2.0);
   cost.bytes = sliced.bytes +
                sizeof(float) *
                    (3 * result.weights +
                     std::max(1.5 * result.kept + 5 * result.largest, own.kept + 3 * own.largest) +
-                    2 * kept + 9 * picture + 4 * pixels(exemplar) * channels);
+                    2 * kept + (whole ? 40 : 9) * picture + 4 * pixels(exemplar) * channels);
   cost.seconds = start_seconds + own.operations / 2 / operations_per_second;
-  for (int level = 0; level < level_count(params, exemplar, target.size); ++level) {
+  for (int level = 0; level < level_count(params, exemplar, target); ++level) {
     const double area = std::pow(params.level_factor, 2 * level);
     const Work part{result.operations * area, 0, 0, 0, 0};
     const SlicedWork share{sliced.operations * area, sliced.sorted * area, 0};

@@ -5,7 +5,7 @@
 namespace gramloom::neural {
 
 Loss::Loss(const NeuralParams& params, const MatchedNetwork* network, const at::Tensor& exemplar,
-           Edges exemplar_edges, Size target, Edges edges, Random random)
+           Edges exemplar_edges, const Target& target, Edges edges, Random random)
     : network_(network),
       options_{params.normalise, params.centre, params.standardise, params.shifts},
       gram_weight_(params.gram_weight),
@@ -19,7 +19,6 @@ Loss::Loss(const NeuralParams& params, const MatchedNetwork* network, const at::
     for (const auto& maps : network->network(exemplar, exemplar_edges, wanted_))
       targets_.emplace_back(moments(maps, wrapped_axes(exemplar_edges), params.shifts), options_);
   }
-  const Tile wraps = wrapped_axes(edges);
   const auto add = [&](double weight, auto&& make) {
     if (weight <= 0) return;
     others_.emplace_back(make(), weight);
@@ -30,11 +29,13 @@ Loss::Loss(const NeuralParams& params, const MatchedNetwork* network, const at::
         others_.back().first);
   };
   add(params.sliced_weight, [&] {
-    return SlicedTerm(exemplar, target, wraps, params.patch_sizes, params.directions, random);
+    return SlicedTerm(exemplar, target.size, target.tile, params.patch_sizes, params.directions,
+                      random);
   });
-  add(params.spectrum_weight, [&] { return SpectrumTerm(exemplar, target); });
-  add(params.autocorrelation_weight, [&] { return AutocorrelationTerm(exemplar, target, wraps); });
-  add(params.variation_weight, [&] { return VariationTerm(exemplar, wraps); });
+  add(params.spectrum_weight, [&] { return SpectrumTerm(exemplar, target.size); });
+  add(params.autocorrelation_weight,
+      [&] { return AutocorrelationTerm(exemplar, target.size, target.tile); });
+  add(params.variation_weight, [&] { return VariationTerm(exemplar, target.tile); });
 }
 
 double Loss::add_grams(const at::Tensor& picture, at::Tensor& gradient) {

@@ -25,9 +25,10 @@ struct MatchedNetwork {
 /// The weighted sum of NeuralParams' terms for one exemplar and one size of the result.
 class Loss {
  public:
-  /// exemplar: (channels, height, width). `network` may be null when gram_weight is 0.
+  /// target: the result on this level. exemplar: (channels, height, width); its edges and those of
+  /// the result are what the network sees beyond them. `network` may be null when gram_weight is 0.
   Loss(const NeuralParams& params, const MatchedNetwork* network, const at::Tensor& exemplar,
-       Edges exemplar_edges, Size target, Edges edges, Random random);
+       Edges exemplar_edges, const Target& target, Edges edges, Random random);
 
   /// The loss of a picture (channels, height, width) and its gradient. Losses of one step are those
   /// of one function; a step has random directions of its own.

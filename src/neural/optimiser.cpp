@@ -109,7 +109,7 @@ void Lbfgs::load(const SavedState& state) {
 }
 
 double Adam::step(at::Tensor& x, const Objective& objective) {
-  constexpr double decay1 = 0.8, decay2 = 0.99, epsilon = 1e-8;
+  constexpr double decay1 = 0.8, decay2 = 0.99, epsilon = 1e-12;
   if (!first_.defined()) {
     first_ = at::zeros_like(x);
     second_ = at::zeros_like(x);

@@ -49,8 +49,9 @@ class Lbfgs {
   std::deque<Pair> pairs_;
 };
 
-/// Adam (Kingma, Ba 2015, algorithm 1; β₁ = 0.8, β₂ = 0.99, ε = 1e-8; both below the paper's
-/// because the gradient's size falls by orders of magnitude within a synthesis).
+/// Adam (Kingma, Ba 2015, algorithm 1; β₁ = 0.8, β₂ = 0.99, ε = 1e-12, since gradients fall with
+/// the number of pixels; all below the paper's because the gradient's size falls by orders of
+/// magnitude within a synthesis).
 class Adam {
  public:
   /// The step falls linearly from learning_rate to a tenth of it at `steps`: large steps leave

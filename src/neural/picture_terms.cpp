@@ -31,6 +31,21 @@ at::Tensor without_lag_0(at::Tensor autocorrelation) {
   return autocorrelation;
 }
 
+// Lags as autocorrelation() gives them, at their places on a torus of that size, with those of
+// negative dy by symmetry.
+at::Tensor on_torus(const at::Tensor& lags, Size size) {
+  const std::int64_t rows = lags.size(1), half = (lags.size(2) + 1) / 2;
+  at::Tensor torus = at::zeros({lags.size(0), size.height, size.width}, lags.options());
+  const auto place = [&](const at::Tensor& part, std::int64_t first) {
+    at::Tensor into = torus.narrow(1, first, part.size(1));
+    into.narrow(2, 0, half).copy_(part.narrow(2, half - 1, half));
+    into.narrow(2, size.width - half + 1, half - 1).copy_(part.narrow(2, 0, half - 1));
+  };
+  place(lags, 0);
+  if (rows > 1) place(lags.narrow(1, 1, rows - 1).flip({1, 2}), size.height - rows + 1);
+  return torus;
+}
+
 // Differences along x and y; on an axis that does not wrap, the last one is 0.
 at::Tensor total_variation(const at::Tensor& planes, Tile wraps) {
   const auto difference = [&](std::int64_t axis, bool wrap) {
@@ -86,23 +101,16 @@ double AutocorrelationTerm::add(const at::Tensor& picture, double weight, std::u
 SpectrumTerm::SpectrumTerm(const at::Tensor& exemplar, Size target) {
   const Size lags{std::max(1, std::min(static_cast<int>(exemplar.size(2)), target.width) / 2),
                   std::max(1, std::min(static_cast<int>(exemplar.size(1)), target.height) / 2)};
-  const at::Tensor known = autocorrelation(centred(exemplar), lags, Tile::none);
-  const auto fade = [](int lag, int count) {
-    return 0.5 + 0.5 * std::cos(3.14159265358979 * lag / count);
+  const auto fade = [&](int count) {
+    const at::Tensor t = at::arange(-count + 1, count, exemplar.options()) / count;
+    return (t * 3.14159265358979).cos().add(1).div(2);
   };
-  // On the torus of the result, with the negative dy by symmetry.
-  at::Tensor torus = at::zeros({exemplar.size(0), target.height, target.width}, exemplar.options());
-  fade_ = at::zeros({target.height, target.width}, exemplar.options());
-  for (int dy = 0; dy < lags.height; ++dy)
-    for (int dx = -lags.width + 1; dx < lags.width; ++dx) {
-      const double value = fade(dy, lags.height) * fade(dx, lags.width);
-      for (const int sign : {1, -1}) {
-        const int y = (target.height + sign * dy) % target.height;
-        const int x = (target.width + sign * dx) % target.width;
-        torus.select(1, y).select(1, x).copy_(known.select(1, dy).select(1, dx + lags.width - 1));
-        fade_.select(0, y).select(0, x).fill_(value);
-      }
-    }
+  fade_ = on_torus((fade(lags.height).narrow(0, lags.height - 1, lags.height).view({-1, 1}) *
+                    fade(lags.width).view({1, -1}))
+                       .unsqueeze(0),
+                   target)
+              .squeeze(0);
+  const at::Tensor torus = on_torus(autocorrelation(centred(exemplar), lags, Tile::none), target);
   const std::int64_t columns = target.width / 2 + 1;
   weight_ = at::full({columns}, 2.0, exemplar.options());
   weight_[0] = 1;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "core/hash.h"
 #include "io/field_values.h"
@@ -10,17 +11,20 @@
 
 namespace gramloom::neural {
 
-int level_count(const NeuralParams& params, Size exemplar, Size target) {
+int level_count(const NeuralParams& params, Size exemplar, const Target& target) {
   if (params.levels > 0) return params.levels;
-  const int patch = *std::max_element(params.patch_sizes.begin(), params.patch_sizes.end());
-  int levels = 1;
-  const auto shorter_side = [&](Size whole) {
-    const Size size = level_size(params, whole, levels);
-    return std::min(size.width, size.height);
+  const int patch = params.sliced_weight > 0
+                        ? *std::max_element(params.patch_sizes.begin(), params.patch_sizes.end())
+                        : 1;
+  const auto fits = [&](int level) {
+    const Size own = level_size(params, exemplar, level);
+    const Size result = level_size(params, target.size, level);
+    return std::min(own.width, own.height) >= std::max(params.coarsest_side, patch) &&
+           (tiles_x(target.tile) || result.width >= patch) &&
+           (tiles_y(target.tile) || result.height >= patch);
   };
-  while (shorter_side(exemplar) >= std::max(params.coarsest_side, patch) &&
-         shorter_side(target) >= patch)
-    ++levels;
+  int levels = 1;
+  while (fits(levels)) ++levels;
   return levels;
 }
 
@@ -30,6 +34,15 @@ Size level_size(const NeuralParams& params, Size whole, int level) {
     return std::max(1, static_cast<int>(std::lround(side * factor)));
   };
   return {scaled(whole.width), scaled(whole.height)};
+}
+
+Size canvas_size(const NeuralParams& params, const Target& target) {
+  Size size = target.size;
+  if (params.sliced_weight == 0 || !params.start.empty()) return size;
+  const int margin = *std::max_element(params.patch_sizes.begin(), params.patch_sizes.end());
+  if (!tiles_x(target.tile)) size.width += 2 * margin;
+  if (!tiles_y(target.tile)) size.height += 2 * margin;
+  return size;
 }
 
 std::int64_t steps_down_to(const NeuralParams& params, int levels, int level) {
@@ -46,11 +59,23 @@ void check_settings(const NeuralParams& params) {
   not_empty("iterations", params.iterations);
   not_empty("optimizer", params.optimizer);
   not_empty("patch_sizes", params.patch_sizes);
-  if (params.sliced_weight + params.gram_weight + params.spectrum_weight +
+  const double layer_weights =
+      params.layer_weights.empty()
+          ? 1
+          : std::accumulate(params.layer_weights.begin(), params.layer_weights.end(), 0.0);
+  if (params.sliced_weight + params.gram_weight * layer_weights + params.spectrum_weight +
           params.autocorrelation_weight + params.variation_weight ==
       0)
     throw ConfigError(
         "there is nothing to match: sliced_weight, gram_weight and the other weights are all 0");
+  const auto of_network = [&](const char* key, bool given) {
+    if (given && params.gram_weight == 0)
+      throw ConfigError("{} has no effect while gram_weight is 0: set it, or preset = \"gatys\"",
+                        key);
+  };
+  of_network("weights", !params.weights.empty());
+  of_network("layers", !params.layers.empty());
+  of_network("layer_weights", !params.layer_weights.empty());
 }
 
 std::vector<MatchedLayer> matched_layers(const NeuralParams& params,
@@ -107,7 +132,7 @@ std::string fingerprint(const NeuralParams& params, const Image& exemplar, const
   hash.add(fmt::format("{}×{} {} seed {} exemplar {}×{}×{};", target.size.width, target.size.height,
                        to_word(target.tile), random.seed(), exemplar.width, exemplar.height,
                        exemplar.channels));
-  hash.add(read_text(find_network(params.network)));
+  if (params.gram_weight > 0) hash.add(read_text(find_network(params.network)));
   hash.add(exemplar.pixels.data(), exemplar.pixels.size() * sizeof(float));
   return hash.text();
 }

@@ -16,10 +16,13 @@ const T& at_level(const std::vector<T>& list, int level) {
 }
 
 /// Levels of the pyramid. Chosen by coarsest_side, they end where a patch would no longer fit into
-/// the exemplar or the result.
-int level_count(const NeuralParams& params, Size exemplar, Size target);
+/// the exemplar or, on an axis that does not tile, the result.
+int level_count(const NeuralParams& params, Size exemplar, const Target& target);
 /// The size of a picture on a level.
 Size level_size(const NeuralParams& params, Size whole, int level);
+/// The size that is worked on: on an axis that does not tile, a little more than the texture's, to
+/// be cut off at the end. Pixels at an edge lie in few patches and stay rough.
+Size canvas_size(const NeuralParams& params, const Target& target);
 /// Steps of all levels but those finer than `level`.
 std::int64_t steps_down_to(const NeuralParams& params, int levels, int level);
 

@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double seconds_between_checkpoints = 60;
 
 // The colours that the loss sees: an affine map of the exemplar's, undone for the result. Along the
-// principal axes the deviation becomes d^(1 − whitening), in units of their mean square.
+// principal axes the deviation becomes d^(1 − whitening), in units of their root mean square.
 ColourPca seen_colours(const NeuralParams& params, const NetworkDescription& description,
                        const ColourPca& principal) {
   ColourPca colours = principal;
@@ -73,7 +73,8 @@ class Synthesis {
         random_(random),
         control_(control),
         principal_(colour_pca(exemplar)),
-        levels_(level_count(params, exemplar.size(), target.size)),
+        levels_(level_count(params, exemplar.size(), target)),
+        canvas_(canvas_size(params, target)),
         start_(Clock::now()) {
     if (params.gram_weight > 0) {
       description_ = read_network(find_network(params.network));
@@ -103,7 +104,11 @@ class Synthesis {
       state_.optimiser = {};
     }
     // Stopped on a coarse level, it has that level's size.
-    return resample(state_.picture, target_.size, wrapped_axes(edges()));
+    const at::Tensor canvas = resample(state_.picture, canvas_, target_.tile);
+    const Size size = target_.size;
+    return canvas.narrow(1, (canvas_.height - size.height) / 2, size.height)
+        .narrow(2, (canvas_.width - size.width) / 2, size.width)
+        .contiguous();
   }
 
   const ColourPca& colours() const { return colours_; }
@@ -126,12 +131,12 @@ class Synthesis {
     if (image.channels != channels)
       throw Error("{}: has {} channels, the exemplar has {}", params_.start.string(),
                   image.channels, channels);
-    return resample(to_planes(whitened(image, colours_)), size, wrapped_axes(edges()));
+    return resample(to_planes(whitened(image, colours_)), size, target_.tile);
   }
 
   // Optimises one level; false when the synthesis should stop.
   bool run_level() {
-    const Size size = level_size(params_, target_.size, state_.level);
+    const Size size = level_size(params_, canvas_, state_.level);
     const Size exemplar_size = level_size(
         params_, {static_cast<int>(exemplar_.size(2)), static_cast<int>(exemplar_.size(1))},
         state_.level);
@@ -141,10 +146,13 @@ class Synthesis {
     if (!state_.picture.defined())
       state_.picture = first_picture(size);
     else if (!resumed)
-      state_.picture = resample(state_.picture, size, wrapped_axes(edges()));
+      state_.picture = resample(state_.picture, size, target_.tile);
+
+    if (state_.iteration >= iterations || out_of_time()) return true;
 
     Loss loss(params_, matched_ ? &*matched_ : nullptr,
-              resample(exemplar_, exemplar_size, Tile::none), exemplar_edges(), size, edges(),
+              resample(exemplar_, exemplar_size, Tile::none), exemplar_edges(),
+              {size, target_.tile}, edges(),
               random_.stream(1).stream(static_cast<std::uint64_t>(state_.level)));
     // L-BFGS needs the same function at each step; Adam takes random ones.
     const Objective objective = [&](const at::Tensor& picture, at::Tensor& gradient) {
@@ -158,7 +166,7 @@ class Synthesis {
     return std::visit(
         [&](auto& method) {
           if (resumed) method.load(state_.optimiser);
-          while (state_.iteration < iterations && !method.converged()) {
+          while (state_.iteration < iterations && !method.converged() && !out_of_time()) {
             const double value = method.step(state_.picture, objective);
             if (!std::isfinite(value))
               throw Error("the loss became {} at step {}: try a smaller learning_rate", value,
@@ -166,7 +174,7 @@ class Synthesis {
             if (state_.iteration++ == 0) state_.first_loss = value;
             const bool go_on = report(value, loss.terms());
             // The level is done, also for one who goes on from here later.
-            if (value <= params_.stop_loss * state_.first_loss || seconds() >= params_.stop_seconds)
+            if (value <= params_.stop_loss * state_.first_loss || out_of_time())
               state_.iteration = iterations;
             keep(method, !go_on);
             if (!go_on) return false;
@@ -175,6 +183,9 @@ class Synthesis {
         },
         optimiser);
   }
+
+  // Finer levels then only make the picture larger; something must have been done first.
+  bool out_of_time() const { return state_.evaluations > 0 && seconds() >= params_.stop_seconds; }
 
   double seconds() const {
     return seconds_before_ + std::chrono::duration<double>(Clock::now() - start_).count();
@@ -206,6 +217,7 @@ class Synthesis {
   const Control& control_;
   ColourPca principal_, colours_;
   int levels_;
+  Size canvas_;
   NetworkDescription description_;
   std::vector<MatchedLayer> layers_;
   at::Tensor exemplar_;

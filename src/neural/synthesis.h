@@ -31,7 +31,7 @@ inline constexpr auto enum_names<Optimizer> = std::to_array<std::string_view>({"
 
 /// Complete settings, each to be chosen by one word. `gatys` is the method of 2015 as published,
 /// but for normalise, centre, standardise and whitening; the others are what we found best for
-/// random filters in about 5, 15 and 60 seconds at 256² on two cores (models/README.md).
+/// random filters, the faster the rougher (models/README.md).
 enum class Preset { fast, balanced, quality, gatys };
 template <>
 inline constexpr auto enum_names<Preset> = std::to_array<std::string_view>({"fast", "balanced",
@@ -39,8 +39,8 @@ inline constexpr auto enum_names<Preset> = std::to_array<std::string_view>({"fas
 
 /// Texture synthesis by statistics of a network's feature maps or of random filters: a noise image
 /// is changed step by step, coarse to fine, until its statistics are those of the exemplar. The
-/// loss is a sum of weighted terms, each 1 or so for a picture without structure and 0 for the
-/// exemplar itself:
+/// loss is a sum of weighted terms, each 1 for a flat picture (Gram matrices: for features of
+/// nothing) and 0, or nearly, for the exemplar itself:
 ///   gram             the Gram matrices of the matched layers, G_l = F_l F_lᵀ,
 ///                    E_l = 1/(4 N_l² M_l²) Σ (G_l − Ĝ_l)², with F_l the N_l feature maps of layer
 ///                    l at M_l positions (Gatys, Ecker, Bethge 2015, "Texture synthesis using
@@ -51,8 +51,7 @@ inline constexpr auto enum_names<Preset> = std::to_array<std::string_view>({"fas
 ///   sliced           the sliced Wasserstein distance between the two pictures' sets of patches,
 ///                    along random directions that are drawn anew in each step of Adam (Heitz,
 ///                    Vanhoey, Chambon, Belcour 2021, "A sliced Wasserstein loss for neural texture
-///                    synthesis"; of patches: Elnekave, Weiss 2022). It sees all that a network of
-///                    one linear layer can see, and needs no network.
+///                    synthesis"; of patches: Elnekave, Weiss 2022). It needs no network.
 ///   spectrum, autocorrelation, variation: see picture_terms.h.
 struct NeuralParams {
   static constexpr std::string_view kind = "neural";

@@ -34,7 +34,7 @@ void evaluation(benchmark::State& state, const char* name) {
   const Edges edges;
   const Size size{static_cast<int>(state.range(0)), static_cast<int>(state.range(0))};
   const MatchedNetwork matched{network, description, layers};
-  Loss loss(params, &matched, exemplar, edges, size, edges, Random(1));
+  Loss loss(params, &matched, exemplar, edges, {size, Tile::both}, edges, Random(1));
   at::Tensor gradient = at::empty_like(picture);
   for (auto _ : state) benchmark::DoNotOptimize(loss(picture, 0, gradient));
 }
@@ -46,7 +46,8 @@ void sliced(benchmark::State& state) {
   const Size size{static_cast<int>(state.range(0)), static_cast<int>(state.range(0))};
   const at::Tensor exemplar = noise(3, state.range(0)), picture = noise(3, state.range(0));
   const Edges edges;
-  Loss loss(with_preset(Preset::balanced), nullptr, exemplar, edges, size, edges, Random(1));
+  Loss loss(with_preset(Preset::balanced), nullptr, exemplar, edges, {size, Tile::both}, edges,
+            Random(1));
   at::Tensor gradient = at::empty_like(picture);
   std::uint64_t step = 0;
   for (auto _ : state) benchmark::DoNotOptimize(loss(picture, step++, gradient));

@@ -51,7 +51,8 @@ TEST_P(GradientTest, MatchesFiniteDifferences) {
   const at::Tensor exemplar = numbers({2, 16, 18}, 1, at::kDouble);
   const at::Tensor picture = numbers({2, 15, 17}, 2, at::kDouble);
   const MatchedNetwork matched{network, description, {{0, 0.5}, {1, 1}, {2, 2}, {4, 1.5}}};
-  Loss loss(grams(c.options), &matched, exemplar, edges, size_of(picture), edges, Random(1));
+  Loss loss(grams(c.options), &matched, exemplar, edges, {size_of(picture), Tile::both}, edges,
+            Random(1));
 
   at::Tensor gradient = at::empty_like(picture), unused = at::empty_like(picture);
   loss(picture, 0, gradient);
@@ -98,7 +99,7 @@ TEST(PyramidGradient, MatchesFiniteDifferences) {
     const at::Tensor picture = numbers({2, 13, 18}, 2, at::kDouble);  // odd: sizes 13, 7, 4
     const MatchedNetwork matched{network, description, {{1, 1}, {3, 0.5}}};
     Loss loss(grams({true, true, true, {}}), &matched, numbers({2, 16, 18}, 1, at::kDouble), edges,
-              size_of(picture), edges, Random(1));
+              {size_of(picture), Tile::both}, edges, Random(1));
     at::Tensor gradient = at::empty_like(picture), unused = at::empty_like(picture);
     loss(picture, 0, gradient);
     for (std::uint64_t trial = 0; trial < 4; ++trial) {

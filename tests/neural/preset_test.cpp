@@ -56,7 +56,7 @@ TEST_P(EveryPreset, LowersItsLoss) {
   const Image result = synthesise(params, exemplar, {{96, 96}, tile}, Random(3), control).image;
   EXPECT_EQ(result.size(), (Size{96, 96}));
   EXPECT_EQ(result.channels, channels);
-  const int levels = neural::level_count(params, exemplar.size());
+  const int levels = neural::level_count(params, exemplar.size(), {{96, 96}, tile});
   ASSERT_EQ(static_cast<std::int64_t>(steps.size()), neural::steps_down_to(params, levels, 0));
   // Steps of one level have one loss, but for its random directions.
   const auto mean = [&](auto first, auto last) {

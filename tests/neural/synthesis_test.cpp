@@ -386,13 +386,15 @@ TEST(Neural, LevelsByTheCoarsestSide) {
   params.levels = 0;
   params.level_factor = 0.5;
   params.coarsest_side = 32;
-  EXPECT_EQ(neural::level_count(params, {256, 256}, {256, 256}), 4);  // 256, 128, 64, 32
-  EXPECT_EQ(neural::level_count(params, {300, 120}, {256, 256}), 2);  // the shorter side: 120, 60
-  EXPECT_EQ(neural::level_count(params, {20, 20}, {256, 256}), 1);
+  EXPECT_EQ(neural::level_count(params, {256, 256}, {{256, 256}, Tile::both}),
+            4);  // 256, 128, 64, 32
+  EXPECT_EQ(neural::level_count(params, {300, 120}, {{256, 256}, Tile::both}),
+            2);  // the shorter side: 120, 60
+  EXPECT_EQ(neural::level_count(params, {20, 20}, {{256, 256}, Tile::both}), 1);
   params.coarsest_side = 33;
-  EXPECT_EQ(neural::level_count(params, {256, 256}, {256, 256}), 3);
+  EXPECT_EQ(neural::level_count(params, {256, 256}, {{256, 256}, Tile::both}), 3);
   params.levels = 7;
-  EXPECT_EQ(neural::level_count(params, {256, 256}, {256, 256}), 7);
+  EXPECT_EQ(neural::level_count(params, {256, 256}, {{256, 256}, Tile::both}), 7);
 }
 
 TEST(Neural, ListsAreReadFromTheFinestLevel) {
