@@ -90,14 +90,18 @@ SlicedWork count_sliced(const NeuralParams& params, double result, double exempl
   return work;
 }
 
+// Whether there are terms that look at the whole picture, by Fourier transforms and differences.
+bool looks_at_whole(const NeuralParams& params) {
+  return params.spectrum_weight + params.autocorrelation_weight + params.variation_weight > 0;
+}
+
 // Where a level's evaluations go.
 double seconds_of_step(const NeuralParams& params, const Work& network, const SlicedWork& sliced,
                        double picture, Optimizer optimizer) {
   double seconds = seconds_per_step + sliced.operations / sliced_operations_per_second +
                    sliced.sorted * seconds_per_sorted_value +
                    network.operations / operations_per_second;
-  if (params.spectrum_weight + params.autocorrelation_weight + params.variation_weight > 0)
-    seconds += picture * 2e-7;
+  if (looks_at_whole(params)) seconds += picture * 2e-7;
   if (optimizer == Optimizer::adam) return seconds + picture * 1e-8;
   return evaluations_per_step * seconds + picture * (4 * params.history) * 2e-10;
 }
@@ -129,15 +133,13 @@ Cost estimate(const NeuralParams& params, Size exemplar, int channels, const Tar
                                    Optimizer::lbfgs) != params.optimizer.end();
   Cost cost;
   // A checkpoint is put together in memory: all that the optimiser keeps is there once more.
-  // Fourier transforms and differences of the terms that look at the whole picture.
-  const bool whole =
-      params.spectrum_weight + params.autocorrelation_weight + params.variation_weight > 0;
   const double kept = picture * (remembers ? 2.0 * params.history : 2.0);
-  cost.bytes = sliced.bytes +
-               sizeof(float) *
-                   (3 * result.weights +
-                    std::max(1.5 * result.kept + 5 * result.largest, own.kept + 3 * own.largest) +
-                    2 * kept + (whole ? 40 : 9) * picture + 4 * pixels(exemplar) * channels);
+  cost.bytes =
+      sliced.bytes +
+      sizeof(float) *
+          (3 * result.weights +
+           std::max(1.5 * result.kept + 5 * result.largest, own.kept + 3 * own.largest) + 2 * kept +
+           (looks_at_whole(params) ? 40 : 9) * picture + 4 * pixels(exemplar) * channels);
   cost.seconds = start_seconds + own.operations / 2 / operations_per_second;
   for (int level = 0; level < level_count(params, exemplar, target); ++level) {
     const double area = std::pow(params.level_factor, 2 * level);

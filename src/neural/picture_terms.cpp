@@ -26,6 +26,13 @@ double inverse_of_sum(const at::Tensor& squares) {
   return sum > 0 ? 1 / sum : 0;
 }
 
+// Sums of products of each channel with itself at every shift on a torus of that shape, which zeros
+// fill up.
+at::Tensor self_products(const at::Tensor& planes, const std::vector<std::int64_t>& shape) {
+  const at::Tensor transformed = at::fft_rfft2(planes, shape);
+  return at::fft_irfft2(at::real(transformed * at::conj(transformed)), shape);
+}
+
 at::Tensor without_lag_0(at::Tensor autocorrelation) {
   autocorrelation.select(1, 0).select(1, autocorrelation.size(2) / 2).zero_();
   return autocorrelation;
@@ -65,10 +72,7 @@ at::Tensor autocorrelation(const at::Tensor& planes, Size lags, Tile wraps) {
   const std::int64_t height = planes.size(1), width = planes.size(2);
   const std::int64_t padded_y = height + (tiles_y(wraps) ? 0 : lags.height);
   const std::int64_t padded_x = width + (tiles_x(wraps) ? 0 : lags.width);
-  const std::vector<std::int64_t> shape{padded_y, padded_x};
-  const at::Tensor transformed = at::fft_rfft2(planes, shape);
-  const at::Tensor power = at::real(transformed * at::conj(transformed));
-  const at::Tensor products = at::fft_irfft2(power, shape);
+  const at::Tensor products = self_products(planes, {padded_y, padded_x});
   // Rows of positive dy; columns of negative dx stand at the end.
   const at::Tensor rows = products.narrow(1, 0, lags.height);
   const at::Tensor sums = at::cat(
@@ -127,11 +131,8 @@ at::Tensor SpectrumTerm::modulus(const at::Tensor& correlation) const {
 double SpectrumTerm::add(const at::Tensor& picture, double weight, std::uint64_t,
                          at::Tensor& gradient) const {
   return add_gradient(picture, weight, gradient, [&](const at::Tensor& x) {
-    const at::Tensor transformed = at::fft_rfft2(centred(x));
-    const at::Tensor power = at::real(transformed * at::conj(transformed));
-    const std::vector<std::int64_t> shape{x.size(1), x.size(2)};
-    const at::Tensor correlation =
-        at::fft_irfft2(power, shape) / static_cast<double>(x.size(1) * x.size(2));
+    const at::Tensor correlation = self_products(centred(x), {x.size(1), x.size(2)}) /
+                                   static_cast<double>(x.size(1) * x.size(2));
     return ((modulus(correlation) - goal_).square() * weight_).sum() * scale_;
   });
 }

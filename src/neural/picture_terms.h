@@ -33,12 +33,12 @@ class AutocorrelationTerm {
   double scale_ = 0;
 };
 
-/// Σ (|X| − |X̂|)² / Σ |X̂|² over all frequencies but 0: the Fourier modulus (Liu, Gousseau, Xia
-/// 2016, "Texture synthesis through convolutional neural networks and spectrum constraints",
-/// equation 7). Departure: |X|² is the transform of the autocorrelation up to half the exemplar's
-/// sides, faded out towards there: it serves results of any size, does not see where the exemplar
-/// ends (the result is taken as if it tiled), and does not ask for the exemplar's very frequencies,
-/// which another size may not have.
+/// Σ (|X| − |X̂|)² / Σ |X̂|² over all frequencies of centred pictures: the Fourier modulus (Liu,
+/// Gousseau, Xia 2016, "Texture synthesis through convolutional neural networks and spectrum
+/// constraints", equation 7). Departure: |X|² is the transform of the autocorrelation up to half
+/// the exemplar's sides, faded out towards there: it serves results of any size, does not see where
+/// the exemplar ends (the result is taken as if it tiled), and does not ask for the exemplar's very
+/// frequencies, which another size may not have.
 class SpectrumTerm {
  public:
   static constexpr std::string_view name = "spectrum";

@@ -166,7 +166,7 @@ class Synthesis {
     return std::visit(
         [&](auto& method) {
           if (resumed) method.load(state_.optimiser);
-          while (state_.iteration < iterations && !method.converged() && !out_of_time()) {
+          while (state_.iteration < iterations && !method.converged()) {
             const double value = method.step(state_.picture, objective);
             if (!std::isfinite(value))
               throw Error("the loss became {} at step {}: try a smaller learning_rate", value,
