@@ -32,37 +32,46 @@ struct Work {
 Work count(const NetworkDescription& network, const std::vector<FilterShape>& shapes,
            const std::vector<MatchedLayer>& matched, Size size, int channels) {
   Work work;
-  const double pixels = static_cast<double>(size.width) * size.height;
-  double positions = pixels, maps = channels;
+  // Of each size that a pyramid looks at; else of the picture alone.
+  std::vector<double> positions{static_cast<double>(size.width) * size.height};
+  if (const auto* pyramid = std::get_if<PyramidLayer>(&network.layers[0].kind))
+    while (positions.size() < static_cast<std::size_t>(pyramid->scales))
+      positions.push_back(positions.back() / 4);
+  std::vector<double> maps(positions.size(), channels);
   for (std::size_t i = 0; i < network.layers.size(); ++i) {
-    double width = 0, at_scale = pixels;
-    const bool pyramid = std::holds_alternative<PyramidLayer>(network.layers[i].kind);
-    double values = 0;
+    const auto& kind = network.layers[i].kind;
+    const bool pyramid = std::holds_alternative<PyramidLayer>(kind);
+    std::vector<double> filters(positions.size(), 0);  // of this layer
+    std::size_t branch = 0;
     for (const auto& shape : shapes) {
       if (shape.layer != i) continue;
-      const double at = pyramid ? at_scale : positions;
-      const double multiplications = static_cast<double>(shape.parameters()) * at;
       const bool winograd = shape.kernel == 3 && shape.dilation == 1 && shape.inputs >= 16;
-      work.operations += 4 * multiplications / (winograd ? winograd_gain : 1);
       work.weights += static_cast<double>(shape.parameters());
-      values += shape.outputs * at;
-      width += shape.outputs;
-      at_scale /= 4;
+      for (std::size_t k = 0; k < positions.size(); ++k) {
+        if (pyramid && k != branch) continue;
+        work.operations += 4 * static_cast<double>(shape.parameters()) * positions[k] /
+                           (winograd ? winograd_gain : 1);
+        filters[k] += shape.outputs;
+      }
+      ++branch;
     }
-    if (width > 0) {
-      maps = width;
-    } else if (!std::holds_alternative<ReluLayer>(network.layers[i].kind)) {
-      positions = std::floor(positions / 4);
-      values = maps * positions;
+    if (branch > 0) maps = filters;
+    double values = 0, products = 0, so_far = 0;
+    for (std::size_t k = 0; k < positions.size(); ++k) {
+      if (branch == 0 && !std::holds_alternative<ReluLayer>(kind))
+        positions[k] = std::floor(positions[k] / 4);
+      so_far += maps[k];
+      values += maps[k] * positions[k];
+      products += maps[k] * so_far * positions[k];  // with all finer sizes
     }
-    work.kept += values;
-    work.largest = std::max(work.largest, values);
     for (const auto& layer : matched)
       if (layer.index == i) {
-        const double matched_values = std::max(values, maps * positions);
-        work.operations += 6 * maps * matched_values / 1.5;
-        work.matched += matched_values;
+        work.operations += 4 * products;
+        work.matched += values;
       }
+    if (std::holds_alternative<ReluLayer>(kind)) continue;  // done with the layer before
+    work.kept += values;
+    work.largest = std::max(work.largest, values);
   }
   return work;
 }
@@ -115,13 +124,23 @@ Cost estimate(const NeuralParams& params, Size exemplar, int channels, const Tar
   const Size canvas = canvas_size(params, target);
   const auto pixels = [](Size size) { return static_cast<double>(size.width) * size.height; };
   Work result, own;
-  if (params.gram_weight > 0) {
+  if (needs_network(params)) {
     auto network = read_network(find_network(params.network));
     const auto layers = matched_layers(params, network);
     check_weights(params, network, channels);
     const auto shapes = filter_shapes(network, channels);
     result = count(network, shapes, layers, canvas, channels);
     own = count(network, shapes, layers, exemplar, channels);
+    // Feature maps of a large picture are in memory, and computed a second time, band by band; with
+    // the rows around each, about twice its positions.
+    const auto in_bands = [](Work& work, double positions) {
+      if (positions <= positions_in_band) return;
+      work.operations *= 2;
+      const double share = std::min(1.0, 2 * static_cast<double>(positions_in_band) / positions);
+      for (double* values : {&work.kept, &work.largest, &work.matched}) *values *= share;
+    };
+    in_bands(result, pixels(canvas));
+    in_bands(own, pixels(exemplar));
     const double shifted = 1 + 4 * static_cast<double>(params.shifts.size()) / 3;
     result.operations *= shifted;
     // The gradient needs each shifted copy of the maps, and both as rows.

@@ -14,19 +14,8 @@ namespace {
 std::vector<std::int64_t> sources(std::int64_t length, std::int64_t radius, Padding padding) {
   if (padding == Padding::valid) radius = 0;
   std::vector<std::int64_t> from(static_cast<std::size_t>(length + 2 * radius));
-  for (std::int64_t i = 0; i < static_cast<std::int64_t>(from.size()); ++i) {
-    std::int64_t source = i - radius;
-    if (padding == Padding::circular) {
-      source = ((source % length) + length) % length;
-    } else if (padding == Padding::reflect) {
-      // … 1 0 | 0 1 2 … length−1 | length−1 length−2 …, with period 2·length
-      source = ((source % (2 * length)) + 2 * length) % (2 * length);
-      if (source >= length) source = 2 * length - 1 - source;
-    } else if (source < 0 || source >= length) {
-      source = -1;
-    }
-    from[static_cast<std::size_t>(i)] = source;
-  }
+  for (std::size_t i = 0; i < from.size(); ++i)
+    from[i] = source_of(static_cast<std::int64_t>(i) - radius, length, padding);
   return from;
 }
 
@@ -111,6 +100,16 @@ at::Tensor pad_blocks(const at::Tensor& data, std::int64_t radius, Edges edges) 
 }
 
 }  // namespace
+
+std::int64_t source_of(std::int64_t position, std::int64_t length, Padding padding) {
+  const auto modulo = [position](std::int64_t period) {
+    return ((position % period) + period) % period;
+  };
+  if (padding == Padding::circular) return modulo(length);
+  if (padding == Padding::reflect)  // … 1 0 | 0 1 2 … length−1 | length−1 length−2 …
+    return std::min(modulo(2 * length), 2 * length - 1 - modulo(2 * length));
+  return position >= 0 && position < length ? position : -1;
+}
 
 std::int64_t channel_block() {
   static const bool wide = dnnl::get_effective_cpu_isa() >= dnnl::cpu_isa::avx512_core;

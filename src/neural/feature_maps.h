@@ -24,6 +24,11 @@ using Scales = std::vector<FeatureMaps>;
 /// Channels in a block: 16 where the processor has AVX-512, else 8.
 std::int64_t channel_block();
 
+/// Of (channels, height, width).
+inline Size size_of(const at::Tensor& planes) {
+  return {static_cast<int>(planes.size(2)), static_cast<int>(planes.size(1))};
+}
+
 /// planes: (channels, height, width).
 FeatureMaps to_maps(const at::Tensor& planes);
 /// (channels, height, width).
@@ -43,6 +48,9 @@ struct Edges {
 inline Tile wrapped_axes(Edges edges) {
   return wrapping(edges.x == Padding::circular, edges.y == Padding::circular);
 }
+
+/// Which of an axis' positions is seen at `position`, which may lie beyond its edges; −1: none.
+std::int64_t source_of(std::int64_t position, std::int64_t length, Padding padding);
 
 /// `maps` with `radius` more positions on every side; on axes of Padding::valid, unchanged.
 /// A circular axis may be shorter than the radius; a reflecting one (which repeats the edge

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+
+#include "neural/bands.h"
 #include "neural/convolution.h"
 #include "neural/network_description.h"
 
@@ -44,23 +47,45 @@ class Network {
   std::vector<Scales> operator()(const at::Tensor& picture, Edges edges,
                                  const std::vector<std::size_t>& wanted) const;
 
+  // The same a few rows at a time: any rows of any layer can be had without the others.
+
+  /// What the first layer looks at: the picture, or, for a pyramid, the picture at each of its
+  /// sizes. All other layers act on each of these views alone.
+  std::vector<at::Tensor> views(const at::Tensor& picture, Edges edges) const;
+  /// The size of each layer's maps of a view of that size. Throws Error when one would be empty.
+  std::vector<Size> sizes(Size view, Edges edges) const;
+  /// The rows of such a view that `rows` of the layers `wanted` are made of, one for each of them.
+  Rows rows_of_view(Size view, Edges edges, const std::vector<std::size_t>& wanted,
+                    const std::vector<Rows>& rows) const;
+  /// These rows, given at least those of the view number `index`.
+  std::vector<Band> bands(std::size_t index, const Band& view, Edges edges,
+                          const std::vector<std::size_t>& wanted,
+                          const std::vector<Rows>& rows) const;
+
  private:
   struct Branch {  // of a layer with filters
     Convolution convolution;
     double blur;
   };
 
-  // A layer's maps from those of the layer before, or, when there are none, from the picture.
-  Scales apply(std::size_t layer, const at::Tensor& picture, const Scales& before, Edges edges,
-               bool relu) const;
-  // What each branch of a layer with filters gives; joined, they are the layer's maps.
-  std::vector<Scales> filter(std::size_t layer, const at::Tensor& picture, const Scales& before,
-                             Edges edges, bool relu) const;
-  Scales join(std::size_t layer, std::vector<Scales> branches) const;
-
-  void check_size(std::size_t layer, std::int64_t height, std::int64_t width,
-                  std::int64_t least_height, std::int64_t least_width,
-                  const at::Tensor& picture) const;
+  bool is_pyramid(std::size_t layer) const;
+  // Those that look at that view.
+  std::span<const Branch> branches(std::size_t layer, std::size_t view) const;
+  std::int64_t radius(std::size_t layer) const;
+  // For each layer up to the last wanted one, the rows of its maps that are needed.
+  std::vector<Rows> needed(const std::vector<Size>& sizes, Edges edges,
+                           const std::vector<std::size_t>& wanted,
+                           const std::vector<Rows>& rows) const;
+  // The rows of what the layer looks at, `height` high, that `rows` of its maps are made of.
+  Rows inputs(std::size_t layer, Rows rows, std::int64_t height, std::int64_t own_height,
+              Edges edges) const;
+  // `rows` of a layer's maps from what it looks at.
+  Band apply(std::size_t layer, std::size_t view, const Band& input, Rows rows,
+             std::int64_t own_height, Edges edges, bool relu) const;
+  Band convolved(std::size_t layer, std::size_t view, const Band& input, Rows rows,
+                 std::int64_t own_height, Edges edges, bool relu) const;
+  Band pooled(std::size_t layer, const Band& input, Rows rows, std::int64_t own_height,
+              Edges edges) const;
 
   NetworkDescription description_;
   Pooling pooling_;

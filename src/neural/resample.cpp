@@ -28,23 +28,48 @@ struct Tap {
 };
 using Taps = std::vector<std::vector<Tap>>;
 
-Taps make_taps(std::int64_t from, std::int64_t to, bool wraps, Kernel kernel) {
-  Taps taps(static_cast<std::size_t>(to));
-  const double ratio = static_cast<double>(from) / static_cast<double>(to);
-  const double width = std::max(1.0, ratio), reach = (kernel == Kernel::cubic ? 2 : 1) * width;
-  for (std::int64_t i = 0; i < to; ++i) {
-    auto& row = taps[static_cast<std::size_t>(i)];
-    const double centre = (static_cast<double>(i) + 0.5) * ratio - 0.5;
+// Positions `rows` along an axis of `to`, from positions `held` of `from`.
+struct Axis {
+  std::int64_t from, to;
+  bool wraps;
+  Rows held, rows;
+  static constexpr std::size_t numbers = 7;
+};
+
+Axis whole_axis(std::int64_t from, std::int64_t to, bool wraps) {
+  return {from, to, wraps, {0, from}, {0, to}};
+}
+
+double reach_of(std::int64_t from, std::int64_t to, Kernel kernel) {
+  const double width = std::max(1.0, static_cast<double>(from) / static_cast<double>(to));
+  return (kernel == Kernel::cubic ? 2 : 1) * width;
+}
+
+double centre_of(std::int64_t position, std::int64_t from, std::int64_t to) {
+  return (static_cast<double>(position) + 0.5) * static_cast<double>(from) /
+             static_cast<double>(to) -
+         0.5;
+}
+
+Taps make_taps(const Axis& axis, Kernel kernel) {
+  Taps taps;
+  const double reach = reach_of(axis.from, axis.to, kernel);
+  const double width = reach / reach_of(1, 1, kernel);
+  for (std::int64_t i = axis.rows.begin; i < axis.rows.end; ++i) {
+    std::vector<Tap> row;
+    const double centre = centre_of(i, axis.from, axis.to);
     double sum = 0;
     for (auto k = static_cast<std::int64_t>(std::ceil(centre - reach));
          k <= static_cast<std::int64_t>(std::floor(centre + reach)); ++k) {
       const double weight = kernel_value(kernel, (static_cast<double>(k) - centre) / width);
       if (weight == 0) continue;
-      row.push_back(
-          {wraps ? ((k % from) + from) % from : std::clamp<std::int64_t>(k, 0, from - 1), weight});
+      row.push_back({axis.wraps ? held_copy(k, axis.held, axis.from)
+                                : std::clamp<std::int64_t>(k, 0, axis.from - 1) - axis.held.begin,
+                     weight});
       sum += weight;
     }
     for (auto& tap : row) tap.weight /= sum;
+    taps.push_back(std::move(row));
   }
   return taps;
 }
@@ -93,43 +118,63 @@ at::Tensor apply_taps(const at::Tensor& data, const Taps& along_y, const Taps& a
   return result;
 }
 
-struct ResampleFunction : torch::autograd::Function<ResampleFunction> {
-  static Taps taps(const std::vector<std::int64_t>& s, std::size_t axis) {
-    return make_taps(s[axis], s[axis + 2], s[axis + 4] != 0, static_cast<Kernel>(s[6]));
-  }
+// Along an axis as numbers that an autograd context can keep.
+std::vector<std::int64_t> numbers_of(const Axis& y, const Axis& x, Kernel kernel) {
+  std::vector<std::int64_t> result;
+  for (const Axis& a : {y, x})
+    result.insert(result.end(),
+                  {a.from, a.to, a.wraps, a.held.begin, a.held.end, a.rows.begin, a.rows.end});
+  result.push_back(static_cast<std::int64_t>(kernel));
+  return result;
+}
+Taps taps_of(const std::vector<std::int64_t>& n, std::size_t axis) {
+  const auto a = n.begin() + static_cast<std::ptrdiff_t>(axis * Axis::numbers);
+  return make_taps({a[0], a[1], a[2] != 0, {a[3], a[4]}, {a[5], a[6]}},
+                   static_cast<Kernel>(n.back()));
+}
 
-  // s: height and width before, after, whether they wrap, kernel
+struct ResampleFunction : torch::autograd::Function<ResampleFunction> {
   static at::Tensor forward(torch::autograd::AutogradContext* context, const at::Tensor& data,
-                            std::vector<std::int64_t> s) {
-    context->saved_data["s"] = s;
-    return apply_taps(data, taps(s, 0), taps(s, 1));
+                            std::vector<std::int64_t> axes) {
+    context->saved_data["axes"] = axes;
+    context->saved_data["shape"] = data.sizes().vec();
+    return apply_taps(data, taps_of(axes, 0), taps_of(axes, 1));
   }
 
   static torch::autograd::variable_list backward(torch::autograd::AutogradContext* context,
                                                  torch::autograd::variable_list gradients) {
-    const auto s = context->saved_data["s"].toIntVector();
-    return {apply_taps(gradients[0].contiguous(), transposed(taps(s, 0), s[0]),
-                       transposed(taps(s, 1), s[1])),
+    const auto axes = context->saved_data["axes"].toIntVector();
+    const auto shape = context->saved_data["shape"].toIntVector();
+    return {apply_taps(gradients[0].contiguous(), transposed(taps_of(axes, 0), shape[1]),
+                       transposed(taps_of(axes, 1), shape[2])),
             at::Tensor()};
   }
 };
 
-at::Tensor resample_blocks(const at::Tensor& data, Size size, Tile tile, Kernel kernel) {
-  if (data.size(1) == size.height && data.size(2) == size.width) return data.clone();
-  return ResampleFunction::apply(
-      data.contiguous(),
-      std::vector<std::int64_t>{data.size(1), data.size(2), size.height, size.width, tiles_y(tile),
-                                tiles_x(tile), static_cast<std::int64_t>(kernel)});
-}
-
 }  // namespace
 
 at::Tensor resample(const at::Tensor& planes, Size size, Tile tile) {
-  return resample_blocks(planes.unsqueeze(3), size, tile, Kernel::cubic).squeeze(3);
+  if (size_of(planes) == size) return planes.clone();
+  return ResampleFunction::apply(
+             planes.unsqueeze(3).contiguous(),
+             numbers_of(whole_axis(planes.size(1), size.height, tiles_y(tile)),
+                        whole_axis(planes.size(2), size.width, tiles_x(tile)), Kernel::cubic))
+      .squeeze(3);
 }
 
-FeatureMaps shrink(const FeatureMaps& maps, Size size, Tile tile) {
-  return {resample_blocks(maps.data, size, tile, Kernel::triangle), maps.channels};
+Rows rows_to_shrink(Rows rows, std::int64_t height, std::int64_t own_height, Tile tile) {
+  const double reach = reach_of(height, own_height, Kernel::triangle);
+  const auto first = std::ceil(centre_of(rows.begin, height, own_height) - reach);
+  const auto last = std::floor(centre_of(rows.end - 1, height, own_height) + reach);
+  return rows_behind({static_cast<std::int64_t>(first), static_cast<std::int64_t>(last) + 1},
+                     height, tiles_y(tile) ? Padding::circular : Padding::valid);
+}
+
+Band shrink(const Band& maps, Size size, Rows rows, Tile tile) {
+  const Axis y{maps.height, size.height, tiles_y(tile), maps.rows, rows};
+  const Axis x = whole_axis(maps.data.size(2), size.width, tiles_x(tile));
+  return {ResampleFunction::apply(maps.data.contiguous(), numbers_of(y, x, Kernel::triangle)),
+          maps.channels, rows, size.height};
 }
 
 }  // namespace gramloom::neural

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "neural/feature_maps.h"
+#include "neural/bands.h"
 
 namespace gramloom::neural {
 
@@ -9,8 +9,11 @@ namespace gramloom::neural {
 /// lies the edge position's value. A constant stays constant. Linear, with its gradient.
 at::Tensor resample(const at::Tensor& planes, Size size, Tile tile);
 
-/// Feature maps at a smaller size by overlapping triangular windows: the transpose of enlarging the
-/// smaller ones bilinearly. Boxes side by side would leave their edges in a synthesis.
-FeatureMaps shrink(const FeatureMaps& maps, Size size, Tile tile);
+/// `rows` of feature maps at a smaller size, by overlapping triangular windows: the transpose of
+/// enlarging the smaller ones bilinearly. Boxes side by side would leave their edges in a
+/// synthesis. The band has at least rows_to_shrink() those.
+Band shrink(const Band& maps, Size size, Rows rows, Tile tile);
+/// The rows, of `height` in all, that `rows` of `own_height` are made of.
+Rows rows_to_shrink(Rows rows, std::int64_t height, std::int64_t own_height, Tile tile);
 
 }  // namespace gramloom::neural

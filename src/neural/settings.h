@@ -9,6 +9,11 @@
 
 namespace gramloom::neural {
 
+/// Whether any term looks at a network's layers.
+inline bool needs_network(const NeuralParams& params) {
+  return params.gram_weight + params.sliced_features_weight > 0;
+}
+
 /// The value of a list for a level, 0 being the finest: the last one serves all coarser levels.
 template <class T>
 const T& at_level(const std::vector<T>& list, int level) {

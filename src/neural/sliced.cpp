@@ -27,23 +27,6 @@ void for_each_group(const at::Tensor& filters, std::int64_t positions, F&& f) {
     f(filters.narrow(0, first, std::min(at_once, filters.size(0) - first)));
 }
 
-// The mean distance of each row's values from their mean, summed over the rows: in an order that
-// does not depend on the threads.
-double distance_from_mean(const at::Tensor& rows) {
-  std::vector<double> distances(static_cast<std::size_t>(rows.size(0)));
-  const std::int64_t count = rows.size(1);
-  parallel_for(rows.size(0), 1, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t r = begin; r < end; ++r) {
-      const float* values = rows.data_ptr<float>() + r * count;
-      const double mean = std::accumulate(values, values + count, 0.0) / static_cast<double>(count);
-      double sum = 0;
-      for (std::int64_t i = 0; i < count; ++i) sum += std::abs(values[i] - mean);
-      distances[static_cast<std::size_t>(r)] = sum / static_cast<double>(count);
-    }
-  });
-  return std::accumulate(distances.begin(), distances.end(), 0.0);
-}
-
 }  // namespace
 
 void check_patches_fit(const std::vector<int>& patch_sizes, Size exemplar, Size target,

@@ -31,9 +31,11 @@ at::Tensor rows_of(const at::Tensor& data, std::int64_t channels, std::int64_t y
 // Keeps the maps, which the network keeps anyway, and nothing else.
 struct MomentsFunction : torch::autograd::Function<MomentsFunction> {
   static torch::autograd::variable_list forward(torch::autograd::AutogradContext* context,
-                                                const at::Tensor& data, std::int64_t channels) {
+                                                const at::Tensor& data, std::int64_t channels,
+                                                double positions) {
     context->save_for_backward({data});
     context->saved_data["channels"] = channels;
+    context->saved_data["positions"] = positions;
     at::Tensor gram = at::zeros({channels, channels}, data.options());
     at::Tensor mean = at::zeros({channels}, data.options());
     for_each_stripe(data, [&](std::int64_t y, std::int64_t count) {
@@ -41,7 +43,6 @@ struct MomentsFunction : torch::autograd::Function<MomentsFunction> {
       gram.addmm_(rows.t(), rows);
       mean.add_(rows.sum(0));
     });
-    const auto positions = static_cast<double>(data.size(1) * data.size(2));
     return {gram.div_(positions), mean.div_(positions)};
   }
 
@@ -50,7 +51,7 @@ struct MomentsFunction : torch::autograd::Function<MomentsFunction> {
     const at::Tensor data = context->get_saved_variables()[0];
     const auto channels = context->saved_data["channels"].toInt();
     const std::int64_t blocks = data.size(0), width = data.size(2), block = data.size(3);
-    const auto positions = static_cast<double>(data.size(1) * width);
+    const double positions = context->saved_data["positions"].toDouble();
     const at::Tensor of_gram = gradients[0] + gradients[0].t();
     at::Tensor result = at::empty_like(data);
     for_each_stripe(data, [&](std::int64_t y, std::int64_t count) {
@@ -62,79 +63,118 @@ struct MomentsFunction : torch::autograd::Function<MomentsFunction> {
                      .view({count, width, blocks, block})
                      .permute({2, 0, 1, 3}));
     });
-    return {result, at::Tensor()};
+    return {result, {}, {}};
   }
 };
 
 }  // namespace
 
-Moments moments(const FeatureMaps& maps) {
-  auto result = MomentsFunction::apply(maps.data, maps.channels);
-  return {result[0], result[1], {}};
-}
+Moments moments(const FeatureMaps& maps) { return moments({maps}, Tile::none); }
 
 namespace {
 
-// Products of maps with themselves shifted by (dy, dx) positions, dy ≥ 0.
-at::Tensor shifted_products(const FeatureMaps& maps, std::int64_t dy, std::int64_t dx, Tile tile) {
-  at::Tensor here = maps.data, there = at::roll(maps.data, {-dy, -dx}, {1, 2});
-  const auto inside = [&](std::int64_t axis, std::int64_t shift) {
-    const std::int64_t count = maps.data.size(axis) - std::abs(shift);
-    here = here.narrow(axis, shift < 0 ? -shift : 0, count);
-    there = there.narrow(axis, shift < 0 ? -shift : 0, count);
-  };
-  if (!tiles_y(tile)) inside(1, dy);
-  if (!tiles_x(tile)) inside(2, dx);
-  const at::Tensor rows = to_rows({here, maps.channels});
-  return at::mm(rows.t(), to_rows({there, maps.channels})) / static_cast<double>(rows.size(0));
+double positions(std::int64_t height, std::int64_t width) {
+  return static_cast<double>(height) * static_cast<double>(width);
 }
 
-void add_shifted(const FeatureMaps& maps, std::int64_t first, Tile tile,
+FeatureMaps rows_of(const Band& band, Rows rows) {
+  return {take_rows(band, rows, Padding::circular), band.channels};
+}
+
+// Products of rows `own` of maps with the same maps shifted by (dy, dx) positions, dy ≥ 0.
+at::Tensor shifted_products(const Band& band, Rows own, std::int64_t dy, std::int64_t dx,
+                            Tile tile) {
+  std::int64_t height = band.height, width = band.data.size(2), first = 0;
+  if (!tiles_y(tile)) {
+    height -= dy;
+    own.end = std::min(own.end, height);
+  }
+  if (!tiles_x(tile)) {
+    width -= std::abs(dx);
+    first = std::max<std::int64_t>(-dx, 0);
+  }
+  if (own.empty()) return at::zeros({band.channels, band.channels}, band.data.options());
+  const auto matrix = [&](at::Tensor data) {
+    return to_rows({data.narrow(2, first, width), band.channels});
+  };
+  const at::Tensor there = rows_of(band, {own.begin + dy, own.end + dy}).data;
+  return at::mm(matrix(rows_of(band, own).data).t(), matrix(at::roll(there, {-dx}, {2}))) /
+         positions(height, width);
+}
+
+bool has_shift(Size size, int d) { return std::min(size.height, size.width) >= 2 * d; }
+
+void add_shifted(const Band& band, Rows own, std::int64_t first, Tile tile,
                  const std::vector<int>& shifts, std::vector<Moments::Shifted>& shifted) {
   for (const int d : shifts) {
-    if (std::min(maps.height(), maps.width()) < 2 * d) continue;
+    if (!has_shift({static_cast<int>(band.data.size(2)), static_cast<int>(band.height)}, d))
+      continue;
     for (const auto& [dy, dx] : {std::pair{0, d}, {d, 0}, {d, d}, {d, -d}})
-      shifted.push_back({first, dy, dx, shifted_products(maps, dy, dx, tile)});
+      shifted.push_back({first, dy, dx, shifted_products(band, own, dy, dx, tile)});
   }
+}
+
+Moments own_moments(const Band& band, Rows own) {
+  auto result = MomentsFunction::apply(rows_of(band, own).data, band.channels,
+                                       positions(band.height, band.data.size(2)));
+  return {result[0], result[1], {}};
 }
 
 }  // namespace
 
-Moments moments(const Scales& scales, Tile tile, const std::vector<int>& shifts) {
+std::vector<Rows> rows_for_moments(const std::vector<Size>& sizes, const std::vector<Rows>& own,
+                                   Tile tile, const std::vector<int>& shifts) {
+  std::vector<Rows> result = own;
+  for (std::size_t k = sizes.size(); k-- > 0;) {
+    for (const int d : shifts)
+      if (has_shift(sizes[k], d)) result[k].end = std::max(result[k].end, own[k].end + d);
+    if (k + 1 < sizes.size())
+      result[k] = hull(result[k],
+                       rows_to_shrink(result[k + 1], sizes[k].height, sizes[k + 1].height, tile));
+    result[k] =
+        rows_behind(result[k], sizes[k].height, tiles_y(tile) ? Padding::circular : Padding::valid);
+  }
+  return result;
+}
+
+Moments moments(const std::vector<Band>& scales, const std::vector<Rows>& own, Tile tile,
+                const std::vector<int>& shifts) {
   std::vector<Moments::Shifted> shifted;
-  std::int64_t channels = 0;
-  for (const auto& maps : scales) {
-    add_shifted(maps, channels, tile, shifts, shifted);
-    channels += maps.channels;
-  }
-  if (scales.size() == 1) {
-    Moments own = moments(scales[0]);
-    own.shifted = std::move(shifted);
-    return own;
-  }
-  std::vector<FeatureMaps> finer;  // maps of finer scales, averaged to the present one's positions
+  std::vector<Band> finer;  // maps of finer scales, averaged to the present one's positions
   std::vector<at::Tensor> means;
   std::vector<std::vector<at::Tensor>> blocks(scales.size());  // of the Gram matrix
+  std::int64_t channels = 0;
   for (std::size_t k = 0; k < scales.size(); ++k) {
-    const Size size{static_cast<int>(scales[k].width()), static_cast<int>(scales[k].height())};
-    for (auto& maps : finer) maps = shrink(maps, size, tile);
-    const Moments own = moments(scales[k]);
-    means.push_back(own.mean);
-    if (k > 0) {
-      const at::Tensor rows = to_rows(scales[k]);
-      for (std::size_t j = 0; j < k; ++j) {
-        const at::Tensor cross =
-            at::mm(rows.t(), to_rows(finer[j])) / static_cast<double>(rows.size(0));
-        blocks[k].push_back(cross);
-        blocks[j].push_back(cross.t());
-      }
+    const Band& scale = scales[k];
+    add_shifted(scale, own[k], channels, tile, shifts, shifted);
+    channels += scale.channels;
+    const Moments alone = own_moments(scale, own[k]);
+    means.push_back(alone.mean);
+    for (std::size_t j = 0; j < finer.size(); ++j) {
+      const Size size{static_cast<int>(scale.data.size(2)), static_cast<int>(scale.height)};
+      finer[j] = shrink(finer[j], size, scale.rows, tile);
+      const at::Tensor cross =
+          at::mm(to_rows(rows_of(scale, own[k])).t(), to_rows(rows_of(finer[j], own[k]))) /
+          positions(size.height, size.width);
+      blocks[k].push_back(cross);
+      blocks[j].push_back(cross.t());
     }
-    blocks[k].push_back(own.gram);
-    finer.push_back(scales[k]);
+    blocks[k].push_back(alone.gram);
+    finer.push_back(scale);
   }
   std::vector<at::Tensor> rows;
   for (const auto& row : blocks) rows.push_back(at::cat(row, 1));
   return {at::cat(rows), at::cat(means), std::move(shifted)};
+}
+
+Moments moments(const Scales& scales, Tile tile, const std::vector<int>& shifts) {
+  std::vector<Band> bands;
+  std::vector<Rows> own;
+  for (const auto& maps : scales) {
+    own.push_back({0, maps.height()});
+    bands.push_back({maps.data, maps.channels, own.back(), maps.height()});
+  }
+  return moments(bands, own, tile, shifts);
 }
 
 GramTarget::GramTarget(const Moments& exemplar, const GramOptions& options) : options_(options) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "neural/feature_maps.h"
+#include "neural/bands.h"
 
 namespace gramloom::neural {
 
@@ -30,6 +30,14 @@ Moments moments(const FeatureMaps& maps);
 /// rectifier wavelet covariance models for texture synthesis", equation 5); not on scales of less
 /// than 2 d positions.
 Moments moments(const Scales& scales, Tile tile, const std::vector<int>& shifts = {});
+
+/// What rows own[k] of each scale k contribute to these: parts that have all rows between them add
+/// up to the whole. The bands hold at least rows_for_moments() of them.
+Moments moments(const std::vector<Band>& scales, const std::vector<Rows>& own, Tile tile,
+                const std::vector<int>& shifts);
+/// sizes: of the whole maps of each scale.
+std::vector<Rows> rows_for_moments(const std::vector<Size>& sizes, const std::vector<Rows>& own,
+                                   Tile tile, const std::vector<int>& shifts);
 
 /// How the Gram matrices of one layer are compared.
 struct GramOptions {

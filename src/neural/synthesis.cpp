@@ -33,7 +33,7 @@ ColourPca seen_colours(const NeuralParams& params, const NetworkDescription& des
   double variance = 0;
   for (const float d : principal.deviation) variance += static_cast<double>(d) * d;
   const double common = std::sqrt(variance / colours.channels);
-  if (params.gram_weight > 0 && !params.weights.empty()) {  // what trained weights expect
+  if (needs_network(params) && !params.weights.empty()) {  // what trained weights expect
     colours.deviation.assign(channels, static_cast<float>(common));
     if (!description.input_mean.empty()) {
       colours.mean.assign(description.input_mean.begin(), description.input_mean.end());
@@ -76,14 +76,14 @@ class Synthesis {
         levels_(level_count(params, exemplar.size(), target)),
         canvas_(canvas_size(params, target)),
         start_(Clock::now()) {
-    if (params.gram_weight > 0) {
+    if (needs_network(params)) {
       description_ = read_network(find_network(params.network));
       layers_ = matched_layers(params, description_);
       check_weights(params, description_, exemplar.channels);
     }
     colours_ = seen_colours(params, description_, principal_);
     exemplar_ = to_planes(whitened(exemplar, colours_));
-    if (params.gram_weight > 0) {
+    if (needs_network(params)) {
       network_ = make_network(params, description_, exemplar_);
       matched_.emplace(*network_, description_, layers_);
     }

@@ -52,7 +52,9 @@ inline constexpr auto enum_names<Preset> = std::to_array<std::string_view>({"fas
 ///                    along random directions that are drawn anew in each step of Adam (Heitz,
 ///                    Vanhoey, Chambon, Belcour 2021, "A sliced Wasserstein loss for neural texture
 ///                    synthesis"; of patches: Elnekave, Weiss 2022). It needs no network.
+///   sliced_features  the same distance between the values of the matched layers' feature maps.
 ///   spectrum, autocorrelation, variation: see picture_terms.h.
+/// In a trace, terms of layers have the layer's name too: gram_relu1_1.
 struct NeuralParams {
   static constexpr std::string_view kind = "neural";
   static constexpr std::string_view summary =
@@ -64,6 +66,7 @@ struct NeuralParams {
   std::vector<int> patch_sizes{7};
   int directions = 32;
   double gram_weight = 0;
+  double sliced_features_weight = 0;
   double spectrum_weight = 0;
   double autocorrelation_weight = 0;
   double variation_weight = 0;
@@ -112,11 +115,13 @@ struct NeuralParams {
               {1, 64}},
         Field{"directions",
               &P::directions,
-              "random directions of each step along which patches are compared",
+              "random directions of each step along which patches or features are compared",
               "",
               {1, 4096}},
         Field{"gram_weight", &P::gram_weight, "weight of the Gram matrices of a network's layers",
               "", weight},
+        Field{"sliced_features_weight", &P::sliced_features_weight,
+              "weight of the sliced Wasserstein distance of a network's layers", "", weight},
         Field{"spectrum_weight", &P::spectrum_weight, "weight of the Fourier spectrum's modulus",
               "", weight},
         Field{"autocorrelation_weight", &P::autocorrelation_weight,

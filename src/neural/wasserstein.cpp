@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -104,6 +105,21 @@ double wasserstein(at::Tensor& rows, const at::Tensor& target) {
   double total = 0;
   for (const double sum : sums) total += sum;
   return total / static_cast<double>(rows.numel());
+}
+
+double distance_from_mean(const at::Tensor& rows) {
+  std::vector<double> distances(static_cast<std::size_t>(rows.size(0)));
+  const std::int64_t count = rows.size(1);
+  parallel_for(rows.size(0), 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t r = begin; r < end; ++r) {
+      const float* values = rows.data_ptr<float>() + r * count;
+      const double mean = std::accumulate(values, values + count, 0.0) / static_cast<double>(count);
+      double sum = 0;
+      for (std::int64_t i = 0; i < count; ++i) sum += std::abs(values[i] - mean);
+      distances[static_cast<std::size_t>(r)] = sum / static_cast<double>(count);
+    }
+  });
+  return std::accumulate(distances.begin(), distances.end(), 0.0);
 }
 
 }  // namespace gramloom::neural

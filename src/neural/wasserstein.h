@@ -14,4 +14,8 @@ void sort_rows(at::Tensor& rows);
 /// `rows`, contiguous floats, is overwritten by the gradient.
 double wasserstein(at::Tensor& rows, const at::Tensor& target);
 
+/// The mean distance of each row's values from their mean, summed over the rows: in an order that
+/// does not depend on the threads.
+double distance_from_mean(const at::Tensor& rows);
+
 }  // namespace gramloom::neural

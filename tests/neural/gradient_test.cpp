@@ -34,9 +34,6 @@ NeuralParams grams(const GramOptions& options) {
   return params;
 }
 
-Size size_of(const at::Tensor& planes) {
-  return {static_cast<int>(planes.size(2)), static_cast<int>(planes.size(1))};
-}
 
 class GradientTest : public testing::TestWithParam<Case> {};
 

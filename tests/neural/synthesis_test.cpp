@@ -67,7 +67,7 @@ TEST(Neural, ReportsEachStepWithItsTerms) {
     EXPECT_EQ(p.steps, 12);
     EXPECT_GE(p.evaluations, p.step);
     ASSERT_EQ(p.terms.size(), 3u);
-    EXPECT_EQ(p.terms[1].name, "pool1");
+    EXPECT_EQ(p.terms[1].name, "gram_pool1");
     double sum = 0;
     for (const auto& term : p.terms) sum += term.value;
     EXPECT_NEAR(sum, p.loss, 1e-3 * p.loss);
@@ -351,7 +351,7 @@ TEST(NeuralPatches, ReportsEachStepWithItsTerms) {
       names.push_back(term.name);
       sum += term.value;
     }
-    EXPECT_EQ(names, (std::vector<std::string>{"relu1_1", "pool1", "sliced", "spectrum",
+    EXPECT_EQ(names, (std::vector<std::string>{"gram_relu1_1", "gram_pool1", "sliced", "spectrum",
                                                "autocorrelation", "variation"}));
     EXPECT_NEAR(sum, p.loss, 1e-5 * p.loss);
     EXPECT_EQ(p.steps, 15);

@@ -1,0 +1,266 @@
+#include "neural/network_terms.h"
+
+#include <torch/csrc/autograd/autograd.h>
+
+#include "neural/wasserstein.h"
+
+namespace gramloom::neural {
+
+struct NetworkTerms::Part {
+  std::vector<at::Tensor> strips;       // of the views: leaves of the graph of gradients
+  std::vector<Rows> rows;               // which rows of the views these are
+  std::vector<std::vector<Band>> maps;  // by layer and view
+  std::vector<std::vector<Rows>> own;   // the rows of these that count
+};
+
+// A picture as the network looks at it: its views, and their rows shared out among parts.
+class NetworkTerms::Parts {
+ public:
+  Parts(const Network& network, const std::vector<std::size_t>& wanted, const at::Tensor& picture,
+        Edges edges, const std::vector<int>& shifts, std::int64_t positions_at_once)
+      : network_(network),
+        wanted_(wanted),
+        edges_(edges),
+        shifts_(shifts),
+        picture_(picture.detach()) {
+    if (at::GradMode::is_enabled()) picture_.requires_grad_(true);
+    views_ = network.views(picture_, edges);
+    for (const auto& view : views_) sizes_.push_back(network.sizes(size_of(view), edges));
+    const std::int64_t positions = picture.size(1) * picture.size(2);
+    count_ = (positions + positions_at_once - 1) / positions_at_once;
+    for (const auto& sizes : sizes_)  // each part has a row of each layer
+      for (const std::size_t layer : wanted)
+        count_ = std::min<std::int64_t>(count_, sizes[layer].height);
+  }
+
+  std::int64_t count() const { return count_; }
+
+  Part part(std::int64_t i) const {
+    Part part;
+    std::vector<std::vector<Rows>> needed;  // by layer and view
+    for (const std::size_t layer : wanted_) {
+      std::vector<Size> sizes;
+      std::vector<Rows> own;
+      for (const auto& of_view : sizes_) {
+        sizes.push_back(of_view[layer]);
+        own.push_back(part_of(of_view[layer].height, i, count_));
+      }
+      needed.push_back(rows_for_moments(sizes, own, wrapped_axes(edges_), shifts_));
+      part.own.push_back(std::move(own));
+    }
+    part.maps.resize(wanted_.size());
+    for (std::size_t k = 0; k < views_.size(); ++k) {
+      std::vector<Rows> rows;
+      for (const auto& of_layer : needed) rows.push_back(of_layer[k]);
+      const Band view = whole_band(views_[k].detach());
+      const Rows behind = network_.rows_of_view(size_of(view.data), edges_, wanted_, rows);
+      const at::Tensor strip = take_rows(view, behind, edges_.y).detach().requires_grad_(true);
+      const auto bands =
+          network_.bands(k, {strip, view.channels, behind, view.height}, edges_, wanted_, rows);
+      for (std::size_t l = 0; l < bands.size(); ++l) part.maps[l].push_back(bands[l]);
+      part.strips.push_back(strip);
+      part.rows.push_back(behind);
+    }
+    return part;
+  }
+
+  // Adds the gradients of a part's strips to those of the views.
+  void add(const Part& part, const std::vector<at::Tensor>& of_strips,
+           std::vector<at::Tensor>& of_views) const {
+    for (std::size_t k = 0; k < views_.size(); ++k) {
+      std::vector<std::int64_t> rows;
+      for (std::int64_t row = part.rows[k].begin; row < part.rows[k].end; ++row)
+        rows.push_back(source_of(row, views_[k].size(1), Padding::circular));
+      of_views[k].index_add_(1, at::tensor(rows, at::kLong), of_strips[k]);
+    }
+  }
+
+  // The gradient of the picture from those of its views, of which the first is the picture.
+  at::Tensor of_picture(const std::vector<at::Tensor>& of_views) const {
+    if (of_views.size() == 1) return of_views[0];
+    return of_views[0] + torch::autograd::grad({views_.begin() + 1, views_.end()}, {picture_},
+                                               {of_views.begin() + 1, of_views.end()})[0];
+  }
+
+  std::vector<at::Tensor> zeros() const {
+    std::vector<at::Tensor> result;
+    for (const auto& view : views_) result.push_back(at::zeros_like(view));
+    return result;
+  }
+
+ private:
+  const Network& network_;
+  const std::vector<std::size_t>& wanted_;
+  Edges edges_;
+  const std::vector<int>& shifts_;
+  at::Tensor picture_;
+  std::vector<at::Tensor> views_;         // of it, the first being itself
+  std::vector<std::vector<Size>> sizes_;  // by view and layer
+  std::int64_t count_ = 1;
+};
+
+std::vector<at::Tensor> NetworkTerms::Statistics::sums() const {
+  std::vector<at::Tensor> result;
+  for (const auto& of_layer : moments) {
+    result.insert(result.end(), {of_layer.gram, of_layer.mean});
+    for (const auto& shifted : of_layer.shifted) result.push_back(shifted.products);
+  }
+  return result;
+}
+
+NetworkTerms::NetworkTerms(const NeuralParams& params, const MatchedNetwork& network,
+                           at::Tensor exemplar, Edges exemplar_edges, Edges edges, Random random,
+                           std::int64_t positions_at_once)
+    : network_(network),
+      gram_weight_(params.gram_weight),
+      sliced_weight_(params.sliced_features_weight),
+      options_{params.normalise, params.centre, params.standardise, params.shifts},
+      directions_(params.directions),
+      exemplar_edges_(exemplar_edges),
+      edges_(edges),
+      random_(random),
+      positions_at_once_(positions_at_once),
+      exemplar_(std::move(exemplar)) {
+  for (const auto& layer : network.layers) wanted_.push_back(layer.index);
+  const Statistics goal = look_at_exemplar(0);
+  for (const auto& moments : goal.moments) grams_.emplace_back(moments, options_);
+  for (const auto& sorted : goals_) flat_.push_back(distance_from_mean(sorted) / directions_);
+}
+
+at::Tensor NetworkTerms::directions(std::uint64_t step, std::uint64_t map,
+                                    std::int64_t channels) const {
+  at::Tensor result = at::empty({directions_, channels}, at::kFloat);
+  Random random = random_.stream(step).stream(map);
+  float* values = result.data_ptr<float>();
+  for (std::int64_t i = 0; i < result.numel(); ++i) values[i] = random.normal();
+  return result.div_(result.norm(2, 1, true));
+}
+
+NetworkTerms::Statistics NetworkTerms::statistics(const Part& part, Edges edges,
+                                                  std::uint64_t step) const {
+  Statistics result;
+  for (std::size_t l = 0; l < part.maps.size(); ++l) {
+    if (gram_weight_ > 0)
+      result.moments.push_back(
+          moments(part.maps[l], part.own[l], wrapped_axes(edges), options_.shifts));
+    if (sliced_weight_ > 0)
+      for (std::size_t k = 0; k < part.maps[l].size(); ++k) {
+        const Band& band = part.maps[l][k];
+        const at::Tensor rows =
+            to_rows({take_rows(band, part.own[l][k], Padding::circular), band.channels});
+        result.projections.push_back(
+            at::mm(directions(step, result.projections.size(), band.channels), rows.t()));
+      }
+  }
+  return result;
+}
+
+NetworkTerms::Statistics NetworkTerms::total(const Parts& parts, Edges edges,
+                                             std::uint64_t step) const {
+  const at::NoGradGuard no_gradients;
+  Statistics sum;
+  std::vector<std::vector<at::Tensor>> projections;  // of each part
+  for (std::int64_t i = 0; i < parts.count(); ++i) {
+    const Statistics own = statistics(parts.part(i), edges, step);
+    if (i == 0) sum.moments = own.moments;
+    const auto sums = sum.sums(), more = own.sums();
+    for (std::size_t t = 0; i > 0 && t < sums.size(); ++t) sums[t].add_(more[t]);
+    projections.resize(own.projections.size());
+    for (std::size_t j = 0; j < projections.size(); ++j)
+      projections[j].push_back(own.projections[j]);
+  }
+  for (const auto& of_map : projections) sum.projections.push_back(at::cat(of_map, 1));
+  return sum;
+}
+
+NetworkTerms::Statistics NetworkTerms::look_at_exemplar(std::uint64_t step) {
+  const Parts parts(network_.network, wanted_, exemplar_, exemplar_edges_, options_.shifts,
+                    positions_at_once_);
+  Statistics goal = total(parts, exemplar_edges_, step);
+  goals_ = goal.projections;
+  for (auto& values : goals_) sort_rows(values);
+  step_ = step;
+  return goal;
+}
+
+double NetworkTerms::gram_term(std::size_t layer, const Moments& own,
+                               std::vector<at::Tensor>& slopes) const {
+  Statistics leaf{{own}, {}};
+  Moments& m = leaf.moments[0];
+  m.gram = m.gram.detach().requires_grad_(true);
+  m.mean = m.mean.detach().requires_grad_(true);
+  for (auto& shifted : m.shifted) shifted.products = shifted.products.detach().requires_grad_(true);
+  const at::Tensor term =
+      grams_[layer].distance(m) * (network_.layers[layer].weight * gram_weight_);
+  for (const auto& slope : torch::autograd::grad({term}, leaf.sums(), {}, {}, false, true))
+    slopes.push_back(slope);
+  return term.item<double>();
+}
+
+double NetworkTerms::sliced_term(std::size_t layer, std::size_t first, std::size_t count,
+                                 const Statistics& whole, std::vector<at::Tensor>& slopes) const {
+  double term = 0;
+  for (std::size_t map = first; map < first + count; ++map) {
+    at::Tensor values = whole.projections[map].detach().clone(at::MemoryFormat::Contiguous);
+    const double weight = flat_[map] > 0 ? network_.layers[layer].weight * sliced_weight_ /
+                                               (flat_[map] * static_cast<double>(count))
+                                         : 0;
+    term += weight * wasserstein(values, goals_[map]);
+    slopes.push_back(values.mul_(weight));
+  }
+  return term;
+}
+
+std::vector<Term> NetworkTerms::add(const at::Tensor& picture, std::uint64_t step,
+                                    at::Tensor& gradient) {
+  if (sliced_weight_ > 0 && step != step_) look_at_exemplar(step);
+  const at::AutoGradMode gradients(true);
+  const Parts parts(network_.network, wanted_, picture, edges_, options_.shifts,
+                    positions_at_once_);
+  // First the statistics of all parts, then the gradient of each. A single part is kept between.
+  std::optional<Part> only;
+  Statistics whole;
+  if (parts.count() == 1) {
+    only = parts.part(0);
+    whole = statistics(*only, edges_, step);
+  } else {
+    whole = total(parts, edges_, step);
+  }
+
+  std::vector<Term> terms;
+  std::vector<at::Tensor> of_sums, of_projections;
+  const auto name = [&](const char* kind, std::size_t layer) {
+    return fmt::format("{}_{}", kind, network_.description.layers[wanted_[layer]].name);
+  };
+  for (std::size_t l = 0; l < whole.moments.size(); ++l)
+    terms.push_back({name("gram", l), gram_term(l, whole.moments[l], of_sums)});
+  const std::size_t views = whole.projections.size() / wanted_.size();
+  for (std::size_t l = 0; views > 0 && l < wanted_.size(); ++l)
+    terms.push_back(
+        {name("sliced_features", l), sliced_term(l, l * views, views, whole, of_projections)});
+
+  std::vector<at::Tensor> of_views = parts.zeros();
+  std::vector<std::int64_t> seen(of_projections.size());  // positions of the parts before
+  for (std::int64_t i = 0; i < parts.count(); ++i) {
+    const Part part = only ? *only : parts.part(i);
+    const Statistics own = only ? whole : statistics(part, edges_, step);
+    std::vector<at::Tensor> outputs, slopes;
+    const auto pull = [&](const at::Tensor& output, const at::Tensor& slope) {
+      if (!output.requires_grad()) return;  // no row of the part has a partner at that shift
+      outputs.push_back(output);
+      slopes.push_back(slope);
+    };
+    const auto sums = own.sums();
+    for (std::size_t t = 0; t < sums.size(); ++t) pull(sums[t], of_sums[t]);
+    for (std::size_t j = 0; j < own.projections.size(); ++j) {
+      const std::int64_t count = own.projections[j].size(1);
+      pull(own.projections[j], of_projections[j].narrow(1, seen[j], count));
+      seen[j] += count;
+    }
+    parts.add(part, torch::autograd::grad(outputs, part.strips, slopes), of_views);
+  }
+  gradient.add_(parts.of_picture(of_views));
+  return terms;
+}
+
+}  // namespace gramloom::neural
