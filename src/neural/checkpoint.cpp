@@ -48,6 +48,7 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
   tensors[fingerprint_prefix + checkpoint.fingerprint] = {{0}, {}};
   tensors["picture"] = to_data(checkpoint.picture);
   tensors["level"] = to_data(checkpoint.level);
+  tensors["first_level"] = to_data(checkpoint.first_level);
   tensors["iteration"] = to_data(static_cast<double>(checkpoint.iteration));
   tensors["evaluations"] = to_data(static_cast<double>(checkpoint.evaluations));
   tensors["seconds"] = to_data(checkpoint.seconds);
@@ -67,6 +68,7 @@ std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& file,
   const auto number = [&](const char* name) { return to_double(tensors.at(name)); };
   Checkpoint checkpoint{fingerprint,
                         static_cast<int>(number("level")),
+                        static_cast<int>(number("first_level")),
                         static_cast<std::int64_t>(number("iteration")),
                         static_cast<std::int64_t>(number("evaluations")),
                         number("seconds"),

@@ -12,6 +12,7 @@ namespace gramloom::neural {
 struct Checkpoint {
   std::string fingerprint;     // of everything that the result depends on
   int level = 0;               // of the pyramid, 0 is the finest
+  int first_level = 0;         // on which the present picture began as noise
   std::int64_t iteration = 0;  // done on this level
   std::int64_t evaluations = 0;
   double seconds = 0;

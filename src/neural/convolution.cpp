@@ -208,9 +208,8 @@ FeatureMaps Convolution::operator()(const FeatureMaps& maps, Edges edges, bool r
   const std::int64_t zeros_y = edges.y == Padding::zero ? radius() : 0;
   const std::int64_t zeros_x = edges.x == Padding::zero ? radius() : 0;
   const Edges before{zeros_x ? Padding::valid : edges.x, zeros_y ? Padding::valid : edges.y};
-  return {
-      ConvolutionFunction::apply(pad(maps, radius(), before).data, state_, zeros_y, zeros_x, relu),
-      state_->outputs()};
+  const at::Tensor padded = pad(maps, radius(), before).data.contiguous();
+  return {ConvolutionFunction::apply(padded, state_, zeros_y, zeros_x, relu), state_->outputs()};
 }
 
 FeatureMaps Convolution::operator()(const at::Tensor& planes, Edges edges, bool relu) const {

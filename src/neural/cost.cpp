@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/threads.h"
 #include "neural/settings.h"
@@ -19,6 +20,7 @@ constexpr double start_seconds = 0.5;
 constexpr double evaluations_per_step = 1.1;
 constexpr double sliced_operations_per_second = 1.2e11;
 constexpr double seconds_per_sorted_value = 6e-9;
+constexpr double seconds_per_transformed_value = 5e-8;
 constexpr double seconds_per_step = 5e-4;
 
 struct Work {
@@ -26,6 +28,9 @@ struct Work {
   double kept = 0;        // values that the gradient needs
   double largest = 0;     // values of the largest layer
   double matched = 0;     // values of the matched layers
+  double positions = 0;   // of the matched layers
+  double halo = 0;        // rows of the picture above and below, that a band of maps depends on
+  double row = 1;         // rows of the picture that a row of the smallest maps stands for
   double weights = 0;
 };
 
@@ -68,12 +73,35 @@ Work count(const NetworkDescription& network, const std::vector<FilterShape>& sh
       if (layer.index == i) {
         work.operations += 4 * products;
         work.matched += values;
+        work.positions += std::accumulate(positions.begin(), positions.end(), 0.0);
       }
     if (std::holds_alternative<ReluLayer>(kind)) continue;  // done with the layer before
     work.kept += values;
     work.largest = std::max(work.largest, values);
+    if (pyramid) {  // whose bands reach as far as its scales are averaged over each other
+      work.row = std::pow(2.0, static_cast<double>(positions.size()) - 1);
+      work.halo = 2 * work.row;
+    }
+    double radius = 0;
+    for (const auto& shape : shapes)
+      if (shape.layer == i && !pyramid)
+        radius = std::max(radius, shape.kernel / 2 * shape.dilation + std::ceil(3 * shape.blur));
+    work.halo += radius * work.row;
+    if (branch == 0) work.row *= 2;
   }
   return work;
+}
+
+// Feature maps of a large picture are in memory band by band, and computed twice, each time with
+// the rows around the band.
+void in_bands(Work& work, Size size) {
+  const double bands = std::floor(std::min(std::ceil(static_cast<double>(size.width) * size.height /
+                                                     static_cast<double>(most_positions_in_band)),
+                                           size.height / work.row));
+  if (bands <= 1) return;
+  const double share = std::min(1.0, 1 / bands + 2 * work.halo / size.height);
+  work.operations *= 1.5 * share * bands;
+  for (double* values : {&work.kept, &work.largest, &work.matched}) *values *= share;
 }
 
 // What is in memory and what is computed for the sliced distance: per step, both pictures are
@@ -99,9 +127,11 @@ SlicedWork count_sliced(const NeuralParams& params, double result, double exempl
   return work;
 }
 
-// Whether there are terms that look at the whole picture, by Fourier transforms and differences.
-bool looks_at_whole(const NeuralParams& params) {
-  return params.spectrum_weight + params.autocorrelation_weight + params.variation_weight > 0;
+// Values in memory, for each of the picture's, beside those of the optimiser: the terms that look
+// at the whole picture take its Fourier transform or differences, the spectrum channel by channel.
+double values_of_picture(const NeuralParams& params, int channels) {
+  if (params.autocorrelation_weight + params.variation_weight > 0) return 40;
+  return params.spectrum_weight > 0 ? 10 + 25.0 / channels : 9;
 }
 
 // Where a level's evaluations go.
@@ -110,7 +140,8 @@ double seconds_of_step(const NeuralParams& params, const Work& network, const Sl
   double seconds = seconds_per_step + sliced.operations / sliced_operations_per_second +
                    sliced.sorted * seconds_per_sorted_value +
                    network.operations / operations_per_second;
-  if (looks_at_whole(params)) seconds += picture * 2e-7;
+  const double transforms = params.spectrum_weight + params.autocorrelation_weight;
+  if (transforms + params.variation_weight > 0) seconds += picture * seconds_per_transformed_value;
   if (optimizer == Optimizer::adam) return seconds + picture * 1e-8;
   return evaluations_per_step * seconds + picture * (4 * params.history) * 2e-10;
 }
@@ -124,6 +155,7 @@ Cost estimate(const NeuralParams& params, Size exemplar, int channels, const Tar
   const Size canvas = canvas_size(params, target);
   const auto pixels = [](Size size) { return static_cast<double>(size.width) * size.height; };
   Work result, own;
+  SlicedWork features;
   if (needs_network(params)) {
     auto network = read_network(find_network(params.network));
     const auto layers = matched_layers(params, network);
@@ -131,16 +163,13 @@ Cost estimate(const NeuralParams& params, Size exemplar, int channels, const Tar
     const auto shapes = filter_shapes(network, channels);
     result = count(network, shapes, layers, canvas, channels);
     own = count(network, shapes, layers, exemplar, channels);
-    // Feature maps of a large picture are in memory, and computed a second time, band by band; with
-    // the rows around each, about twice its positions.
-    const auto in_bands = [](Work& work, double positions) {
-      if (positions <= positions_in_band) return;
-      work.operations *= 2;
-      const double share = std::min(1.0, 2 * static_cast<double>(positions_in_band) / positions);
-      for (double* values : {&work.kept, &work.largest, &work.matched}) *values *= share;
-    };
-    in_bands(result, pixels(canvas));
-    in_bands(own, pixels(exemplar));
+    in_bands(result, canvas);
+    in_bands(own, exemplar);
+    if (params.sliced_features_weight > 0) {  // projections of both pictures, sorted in each step
+      features.sorted = params.directions * (result.positions + own.positions);
+      features.operations = own.operations / 2;
+      features.bytes = 3 * sizeof(float) * features.sorted;
+    }
     const double shifted = 1 + 4 * static_cast<double>(params.shifts.size()) / 3;
     result.operations *= shifted;
     // The gradient needs each shifted copy of the maps, and both as rows.
@@ -154,16 +183,17 @@ Cost estimate(const NeuralParams& params, Size exemplar, int channels, const Tar
   // A checkpoint is put together in memory: all that the optimiser keeps is there once more.
   const double kept = picture * (remembers ? 2.0 * params.history : 2.0);
   cost.bytes =
-      sliced.bytes +
+      sliced.bytes + features.bytes +
       sizeof(float) *
           (3 * result.weights +
            std::max(1.5 * result.kept + 5 * result.largest, own.kept + 3 * own.largest) + 2 * kept +
-           (looks_at_whole(params) ? 40 : 9) * picture + 4 * pixels(exemplar) * channels);
+           values_of_picture(params, channels) * picture + 4 * pixels(exemplar) * channels);
   cost.seconds = start_seconds + own.operations / 2 / operations_per_second;
   for (int level = 0; level < level_count(params, exemplar, target); ++level) {
     const double area = std::pow(params.level_factor, 2 * level);
     const Work part{result.operations * area, 0, 0, 0, 0};
-    const SlicedWork share{sliced.operations * area, sliced.sorted * area, 0};
+    const SlicedWork share{(sliced.operations + features.operations) * area,
+                           (sliced.sorted + features.sorted) * area, 0};
     cost.seconds +=
         at_level(params.iterations, level) *
         seconds_of_step(params, part, share, picture * area, at_level(params.optimizer, level));

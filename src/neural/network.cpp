@@ -54,18 +54,15 @@ at::Tensor inverse_activation(const std::vector<Band>& views) {
   return at::where(mean > 1e-12, 1 / mean, at::ones_like(mean));
 }
 
-// Rows of a pooled picture that lie in one turn around the circle, and the rows they pool. An odd
-// last row is left out on every turn.
-struct PooledRows {
-  Rows pooled, from;
-};
-std::vector<PooledRows> turns(Rows rows, std::int64_t height, std::int64_t own_height) {
-  std::vector<PooledRows> result;
+// The rows that rows of a pooled picture are made of, for each turn around the circle: an odd last
+// row is left out every time.
+std::vector<Rows> turns(Rows rows, std::int64_t height, std::int64_t own_height) {
+  std::vector<Rows> result;
   while (!rows.empty()) {
     const std::int64_t turn = floor_divided(rows.begin, own_height);
     const std::int64_t end = std::min(rows.end, (turn + 1) * own_height);
-    const std::int64_t shift = turn * (height - 2 * own_height);
-    result.push_back({{rows.begin, end}, {2 * rows.begin + shift, 2 * end + shift}});
+    const std::int64_t left_out = turn * (height - 2 * own_height);
+    result.push_back({2 * rows.begin + left_out, 2 * end + left_out});
     rows.begin = end;
   }
   return result;
@@ -116,9 +113,8 @@ std::vector<Size> Network::sizes(Size view, Edges edges) const {
     if (is<AveragePoolLayer>(layer) || is<MaxPoolLayer>(layer))
       size = {size.width / 2, size.height / 2};
     if (size.width < 1 || size.height < 1)
-      throw Error(
-          "layer '{}' of network '{}' would be empty: a picture of {}×{} is too small for it",
-          layer.name, description_.name, view.width, view.height);
+      throw Error("layer '{}' of network '{}' would be empty: a picture of {}×{} is too small for it",
+                  layer.name, description_.name, view.width, view.height);
     result.push_back(size);
   }
   return result;
@@ -137,7 +133,7 @@ Rows Network::inputs(std::size_t layer, Rows rows, std::int64_t height, std::int
   } else if (is<ReluLayer>(description_.layers[layer])) {
     result = rows;
   } else {
-    for (const auto& turn : turns(rows, height, own_height)) result = hull(result, turn.from);
+    for (const auto& turn : turns(rows, height, own_height)) result = hull(result, turn);
   }
   return rows_behind(result, height, edges.y);
 }
@@ -191,7 +187,7 @@ Band Network::pooled(std::size_t layer, const Band& input, Rows rows, std::int64
       (pooling_ == Pooling::as_described && is<AveragePoolLayer>(description_.layers[layer]));
   std::vector<at::Tensor> parts;
   for (const auto& turn : turns(rows, input.height, own_height))
-    parts.push_back(pool({take_rows(input, turn.from, edges.y), input.channels},
+    parts.push_back(pool({take_rows(input, turn, edges.y), input.channels},
                          average ? PoolKind::average : PoolKind::max)
                         .data);
   return {parts.size() == 1 ? parts[0] : at::cat(parts, 1), input.channels, rows, own_height};

@@ -17,7 +17,7 @@ struct NetworkTerms::Part {
 class NetworkTerms::Parts {
  public:
   Parts(const Network& network, const std::vector<std::size_t>& wanted, const at::Tensor& picture,
-        Edges edges, const std::vector<int>& shifts, std::int64_t positions_at_once)
+        Edges edges, const std::vector<int>& shifts, std::int64_t positions_in_band)
       : network_(network),
         wanted_(wanted),
         edges_(edges),
@@ -27,7 +27,7 @@ class NetworkTerms::Parts {
     views_ = network.views(picture_, edges);
     for (const auto& view : views_) sizes_.push_back(network.sizes(size_of(view), edges));
     const std::int64_t positions = picture.size(1) * picture.size(2);
-    count_ = (positions + positions_at_once - 1) / positions_at_once;
+    count_ = (positions + positions_in_band - 1) / positions_in_band;
     for (const auto& sizes : sizes_)  // each part has a row of each layer
       for (const std::size_t layer : wanted)
         count_ = std::min<std::int64_t>(count_, sizes[layer].height);
@@ -110,7 +110,7 @@ std::vector<at::Tensor> NetworkTerms::Statistics::sums() const {
 
 NetworkTerms::NetworkTerms(const NeuralParams& params, const MatchedNetwork& network,
                            at::Tensor exemplar, Edges exemplar_edges, Edges edges, Random random,
-                           std::int64_t positions_at_once)
+                           std::int64_t positions_in_band)
     : network_(network),
       gram_weight_(params.gram_weight),
       sliced_weight_(params.sliced_features_weight),
@@ -119,12 +119,16 @@ NetworkTerms::NetworkTerms(const NeuralParams& params, const MatchedNetwork& net
       exemplar_edges_(exemplar_edges),
       edges_(edges),
       random_(random),
-      positions_at_once_(positions_at_once),
+      positions_in_band_(positions_in_band),
       exemplar_(std::move(exemplar)) {
   for (const auto& layer : network.layers) wanted_.push_back(layer.index);
-  const Statistics goal = look_at_exemplar(0);
+  const Statistics goal = look_at_exemplar(0, gram_weight_ > 0);
   for (const auto& moments : goal.moments) grams_.emplace_back(moments, options_);
-  for (const auto& sorted : goals_) flat_.push_back(distance_from_mean(sorted) / directions_);
+  for (const auto& sorted : goals_) {
+    const double flat = distance_from_mean(sorted) / directions_;
+    // Of equal values the mean is rounded.
+    flat_.push_back(flat < 1e-6 * sorted.square().mean().sqrt().item<double>() ? 0 : flat);
+  }
 }
 
 at::Tensor NetworkTerms::directions(std::uint64_t step, std::uint64_t map,
@@ -136,11 +140,11 @@ at::Tensor NetworkTerms::directions(std::uint64_t step, std::uint64_t map,
   return result.div_(result.norm(2, 1, true));
 }
 
-NetworkTerms::Statistics NetworkTerms::statistics(const Part& part, Edges edges,
-                                                  std::uint64_t step) const {
+NetworkTerms::Statistics NetworkTerms::statistics(const Part& part, Edges edges, std::uint64_t step,
+                                                  bool with_moments) const {
   Statistics result;
   for (std::size_t l = 0; l < part.maps.size(); ++l) {
-    if (gram_weight_ > 0)
+    if (with_moments)
       result.moments.push_back(
           moments(part.maps[l], part.own[l], wrapped_axes(edges), options_.shifts));
     if (sliced_weight_ > 0)
@@ -155,13 +159,13 @@ NetworkTerms::Statistics NetworkTerms::statistics(const Part& part, Edges edges,
   return result;
 }
 
-NetworkTerms::Statistics NetworkTerms::total(const Parts& parts, Edges edges,
-                                             std::uint64_t step) const {
+NetworkTerms::Statistics NetworkTerms::total(const Parts& parts, Edges edges, std::uint64_t step,
+                                             bool with_moments) const {
   const at::NoGradGuard no_gradients;
   Statistics sum;
   std::vector<std::vector<at::Tensor>> projections;  // of each part
   for (std::int64_t i = 0; i < parts.count(); ++i) {
-    const Statistics own = statistics(parts.part(i), edges, step);
+    const Statistics own = statistics(parts.part(i), edges, step, with_moments);
     if (i == 0) sum.moments = own.moments;
     const auto sums = sum.sums(), more = own.sums();
     for (std::size_t t = 0; i > 0 && t < sums.size(); ++t) sums[t].add_(more[t]);
@@ -169,14 +173,17 @@ NetworkTerms::Statistics NetworkTerms::total(const Parts& parts, Edges edges,
     for (std::size_t j = 0; j < projections.size(); ++j)
       projections[j].push_back(own.projections[j]);
   }
-  for (const auto& of_map : projections) sum.projections.push_back(at::cat(of_map, 1));
+  for (auto& of_map : projections) {
+    sum.projections.push_back(at::cat(of_map, 1));
+    of_map.clear();  // as large again
+  }
   return sum;
 }
 
-NetworkTerms::Statistics NetworkTerms::look_at_exemplar(std::uint64_t step) {
+NetworkTerms::Statistics NetworkTerms::look_at_exemplar(std::uint64_t step, bool with_moments) {
   const Parts parts(network_.network, wanted_, exemplar_, exemplar_edges_, options_.shifts,
-                    positions_at_once_);
-  Statistics goal = total(parts, exemplar_edges_, step);
+                    positions_in_band_);
+  Statistics goal = total(parts, exemplar_edges_, step, with_moments);
   goals_ = goal.projections;
   for (auto& values : goals_) sort_rows(values);
   step_ = step;
@@ -201,7 +208,8 @@ double NetworkTerms::sliced_term(std::size_t layer, std::size_t first, std::size
                                  const Statistics& whole, std::vector<at::Tensor>& slopes) const {
   double term = 0;
   for (std::size_t map = first; map < first + count; ++map) {
-    at::Tensor values = whole.projections[map].detach().clone(at::MemoryFormat::Contiguous);
+    at::Tensor values = whole.projections[map];  // overwritten, where no gradient needs them
+    if (values.requires_grad()) values = values.detach().clone(at::MemoryFormat::Contiguous);
     const double weight = flat_[map] > 0 ? network_.layers[layer].weight * sliced_weight_ /
                                                (flat_[map] * static_cast<double>(count))
                                          : 0;
@@ -213,18 +221,18 @@ double NetworkTerms::sliced_term(std::size_t layer, std::size_t first, std::size
 
 std::vector<Term> NetworkTerms::add(const at::Tensor& picture, std::uint64_t step,
                                     at::Tensor& gradient) {
-  if (sliced_weight_ > 0 && step != step_) look_at_exemplar(step);
+  if (sliced_weight_ > 0 && step != step_) look_at_exemplar(step, false);
   const at::AutoGradMode gradients(true);
   const Parts parts(network_.network, wanted_, picture, edges_, options_.shifts,
-                    positions_at_once_);
+                    positions_in_band_);
   // First the statistics of all parts, then the gradient of each. A single part is kept between.
   std::optional<Part> only;
   Statistics whole;
   if (parts.count() == 1) {
     only = parts.part(0);
-    whole = statistics(*only, edges_, step);
+    whole = statistics(*only, edges_, step, gram_weight_ > 0);
   } else {
-    whole = total(parts, edges_, step);
+    whole = total(parts, edges_, step, gram_weight_ > 0);
   }
 
   std::vector<Term> terms;
@@ -243,10 +251,11 @@ std::vector<Term> NetworkTerms::add(const at::Tensor& picture, std::uint64_t ste
   std::vector<std::int64_t> seen(of_projections.size());  // positions of the parts before
   for (std::int64_t i = 0; i < parts.count(); ++i) {
     const Part part = only ? *only : parts.part(i);
-    const Statistics own = only ? whole : statistics(part, edges_, step);
+    const Statistics own = only ? whole : statistics(part, edges_, step, gram_weight_ > 0);
     std::vector<at::Tensor> outputs, slopes;
     const auto pull = [&](const at::Tensor& output, const at::Tensor& slope) {
-      if (!output.requires_grad()) return;  // no row of the part has a partner at that shift
+      // No row of the part has a partner at that shift, or the exemplar is too small for it.
+      if (!output.requires_grad() || !slope.defined()) return;
       outputs.push_back(output);
       slopes.push_back(slope);
     };

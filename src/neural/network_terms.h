@@ -25,8 +25,8 @@ struct MatchedNetwork {
 /// Positions of a picture whose feature maps are in memory at once. Statistics are sums over
 /// positions, or sorts of few values for each, so a larger picture is looked at in bands of rows,
 /// each with the rows around it that its maps depend on, and twice: for the statistics, and for
-/// their gradient.
-inline constexpr std::int64_t positions_in_band = std::int64_t{1} << 18;
+/// their gradient. A band has at least one row of the smallest maps.
+inline constexpr std::int64_t most_positions_in_band = std::int64_t{1} << 18;
 
 /// The terms of the loss that compare feature maps of a network with those of the exemplar, for
 /// each matched layer:
@@ -41,7 +41,7 @@ class NetworkTerms {
   /// exemplar and of the result.
   NetworkTerms(const NeuralParams& params, const MatchedNetwork& network, at::Tensor exemplar,
                Edges exemplar_edges, Edges edges, Random random,
-               std::int64_t positions_at_once = positions_in_band);
+               std::int64_t positions_in_band = most_positions_in_band);
 
   /// The weighted terms of a picture by name; adds their gradient. The directions are those of
   /// `step`.
@@ -57,13 +57,13 @@ class NetworkTerms {
   struct Part;
 
   // What the rows of a part contribute.
-  Statistics statistics(const Part& part, Edges edges, std::uint64_t step) const;
+  Statistics statistics(const Part& part, Edges edges, std::uint64_t step, bool with_moments) const;
   // (directions, channels), unit vectors.
   at::Tensor directions(std::uint64_t step, std::uint64_t map, std::int64_t channels) const;
   // Of all parts together, without gradients.
-  Statistics total(const Parts& parts, Edges edges, std::uint64_t step) const;
+  Statistics total(const Parts& parts, Edges edges, std::uint64_t step, bool with_moments) const;
   // The exemplar's statistics; the goals become those of that step.
-  Statistics look_at_exemplar(std::uint64_t step);
+  Statistics look_at_exemplar(std::uint64_t step, bool with_moments);
   // The weighted term of a layer, and its slopes along all tensors that it is made of.
   double gram_term(std::size_t layer, const Moments& own, std::vector<at::Tensor>& slopes) const;
   double sliced_term(std::size_t layer, std::size_t first, std::size_t count,
@@ -75,7 +75,7 @@ class NetworkTerms {
   int directions_;
   Edges exemplar_edges_, edges_;
   Random random_;
-  std::int64_t positions_at_once_;
+  std::int64_t positions_in_band_;
   at::Tensor exemplar_;
   std::vector<std::size_t> wanted_;
   std::vector<GramTarget> grams_;

@@ -4,10 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace gramloom::neural {
 
 namespace {
+
+// Of a frequency: the root has no derivative at 0.
+constexpr double least_power = 1e-8;
+
+// Transforms need memory: of a large picture a channel at a time.
+constexpr std::int64_t values_transformed_at_once = 1 << 20;
 
 // f(picture) is a scalar; adds weight times its gradient and returns it.
 template <class F>
@@ -124,17 +131,34 @@ SpectrumTerm::SpectrumTerm(const at::Tensor& exemplar, Size target) {
 }
 
 at::Tensor SpectrumTerm::modulus(const at::Tensor& correlation) const {
-  // The root has no derivative at 0.
-  return (at::real(at::fft_rfft2(correlation * fade_)).clamp_min(0) + 1e-8).sqrt();
+  return (at::real(at::fft_rfft2(correlation * fade_)).clamp_min(0) + least_power).sqrt();
 }
 
 double SpectrumTerm::add(const at::Tensor& picture, double weight, std::uint64_t,
                          at::Tensor& gradient) const {
-  return add_gradient(picture, weight, gradient, [&](const at::Tensor& x) {
-    const at::Tensor correlation = self_products(centred(x), {x.size(1), x.size(2)}) /
-                                   static_cast<double>(x.size(1) * x.size(2));
-    return ((modulus(correlation) - goal_).square() * weight_).sum() * scale_;
-  });
+  const std::vector<std::int64_t> shape{picture.size(1), picture.size(2)};
+  const std::int64_t positions = shape[0] * shape[1];
+  const auto m = static_cast<double>(positions);
+  const std::int64_t at_once = std::max<std::int64_t>(1, values_transformed_at_once / positions);
+  double sum = 0;
+  for (std::int64_t c = 0; c < picture.size(0); c += at_once) {
+    const std::int64_t count = std::min(at_once, picture.size(0) - c);
+    // X is the transform; |X|² that of the correlation, which is faded; S is |X|² thereafter.
+    const at::Tensor x = at::fft_rfft2(centred(picture.narrow(0, c, count)));
+    const at::Tensor parts = at::view_as_real(x);
+    const at::Tensor correlation = at::fft_irfft2(parts.square().sum(3), shape).div_(m);
+    const at::Tensor smooth = at::real(at::fft_rfft2(correlation.mul_(fade_)));
+    const at::Tensor root = (smooth.clamp_min(0) + least_power).sqrt_();
+    const at::Tensor error = root - goal_.narrow(0, c, count);
+    sum += (error.square() * weight_).sum().item<double>() * scale_;
+    // Back the same way, by the chain rule: ∂/∂S, ∂/∂correlation, ∂/∂|X|², ∂/∂x.
+    const at::Tensor of_smooth = (error / root).mul_(smooth > 0);
+    const at::Tensor of_correlation = at::fft_irfft2(of_smooth, shape).mul_(fade_);
+    const at::Tensor of_power = at::real(at::fft_rfft2(of_correlation));
+    parts.mul_(of_power.unsqueeze(3));
+    gradient.narrow(0, c, count).add_(at::fft_irfft2(x, shape), weight * scale_ * 2);
+  }
+  return sum;
 }
 
 VariationTerm::VariationTerm(const at::Tensor& exemplar, Tile wraps) : wraps_(wraps) {

@@ -10,15 +10,16 @@ NeuralParams with_preset(Preset preset) {
       break;
     case Preset::fast:
       params.directions = 24;
+      params.spectrum_weight = 0;
       params.iterations = {30, 60, 120, 150};
       break;
     case Preset::quality:
-      params.patch_sizes = {7, 5};
       params.directions = 64;
       params.iterations = {120, 240, 400};
       break;
     case Preset::gatys:
       params.sliced_weight = 0;
+      params.spectrum_weight = 0;
       params.gram_weight = 1;
       params.whitening = 1;
       params.optimizer = {Optimizer::lbfgs};

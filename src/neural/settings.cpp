@@ -86,6 +86,16 @@ std::vector<MatchedLayer> matched_layers(const NeuralParams& params,
   if (!params.layer_weights.empty() && params.layer_weights.size() != names.size())
     throw ConfigError("layer_weights has {} values for {} layers ({})", params.layer_weights.size(),
                       names.size(), fmt::join(names, ", "));
+  const auto of_pyramid = [&](const char* key, Padding padding) {
+    if (padding == Padding::valid &&
+        std::holds_alternative<PyramidLayer>(description.layers[0].kind))
+      throw ConfigError(
+          "{} = \"valid\" does not go with network '{}': the sizes of its pyramid would lose "
+          "different margins (allowed are circular, reflect, zero)",
+          key, description.name);
+  };
+  of_pyramid("padding", params.padding);
+  of_pyramid("exemplar_padding", params.exemplar_padding);
   std::vector<MatchedLayer> layers;
   for (std::size_t i = 0; i < names.size(); ++i)
     layers.push_back({find_layer(description, names[i]),

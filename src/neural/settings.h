@@ -44,7 +44,8 @@ std::vector<MatchedLayer> matched_layers(const NeuralParams& params,
 /// no such file.
 void check_weights(const NeuralParams& params, const NetworkDescription& description, int channels);
 
-/// The network with its weights, random (rescaled on the exemplar where asked for) or from a file.
+/// The network with its weights, random (rescaled on the exemplar, or the middle of a large one,
+/// where asked for) or from a file.
 /// exemplar: (channels, height, width), as the network sees it. Throws Error when the file does
 /// not have what the network needs.
 Network make_network(const NeuralParams& params, const NetworkDescription& description,

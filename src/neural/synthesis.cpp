@@ -10,6 +10,7 @@
 #include "core/threads.h"
 #include "io/image_file.h"
 #include "neural/checkpoint.h"
+#include "neural/layout.h"
 #include "neural/loss.h"
 #include "neural/picture.h"
 #include "neural/resample.h"
@@ -95,13 +96,17 @@ class Synthesis {
       state_ = std::move(*saved);
       seconds_before_ = state_.seconds;
     } else {
-      state_.level = levels_ - 1;
+      state_.level = state_.first_level = levels_ - 1;
     }
     last_checkpoint_ = Clock::now();
     while (run_level() && state_.level > 0) {
+      const bool copied = copies_layout();
       --state_.level;
       state_.iteration = 0;
       state_.optimiser = {};
+      if (!copied) continue;
+      state_.first_level = state_.level;
+      state_.picture = at::Tensor();
     }
     // Stopped on a coarse level, it has that level's size.
     const at::Tensor canvas = resample(state_.picture, canvas_, target_.tile);
@@ -134,12 +139,26 @@ class Synthesis {
     return resample(to_planes(whitened(image, colours_)), size, target_.tile);
   }
 
+  // Whether the level on which the picture began has brought back the exemplar's layout, and a
+  // finer one, of at most half the exemplar's size, can be the first instead. A picture smaller
+  // than the exemplar is always like one place of it.
+  bool copies_layout() const {
+    const double next = std::pow(params_.level_factor, state_.level - 1);
+    if (params_.levels > 0 || state_.level != state_.first_level || next > 0.5) return false;
+    if (!params_.start.empty() || out_of_time()) return false;
+    const at::Tensor exemplar = exemplar_of_level();
+    const Size own = size_of(state_.picture), size = size_of(exemplar);
+    return own.width >= size.width && own.height >= size.height &&
+           layout_copied(state_.picture, exemplar, target_.tile) > params_.copy_limit;
+  }
+
+  at::Tensor exemplar_of_level() const {
+    return resample(exemplar_, level_size(params_, size_of(exemplar_), state_.level), Tile::none);
+  }
+
   // Optimises one level; false when the synthesis should stop.
   bool run_level() {
     const Size size = level_size(params_, canvas_, state_.level);
-    const Size exemplar_size = level_size(
-        params_, {static_cast<int>(exemplar_.size(2)), static_cast<int>(exemplar_.size(1))},
-        state_.level);
     const int iterations = at_level(params_.iterations, state_.level);
     const Optimizer kind = at_level(params_.optimizer, state_.level);
     const bool resumed = state_.iteration > 0;
@@ -150,8 +169,7 @@ class Synthesis {
 
     if (state_.iteration >= iterations || out_of_time()) return true;
 
-    Loss loss(params_, matched_ ? &*matched_ : nullptr,
-              resample(exemplar_, exemplar_size, Tile::none), exemplar_edges(),
+    Loss loss(params_, matched_ ? &*matched_ : nullptr, exemplar_of_level(), exemplar_edges(),
               {size, target_.tile}, edges(),
               random_.stream(1).stream(static_cast<std::uint64_t>(state_.level)));
     // L-BFGS needs the same function at each step; Adam takes random ones.

@@ -63,11 +63,11 @@ struct NeuralParams {
   Preset preset = Preset::balanced;
 
   double sliced_weight = 1;
-  std::vector<int> patch_sizes{7};
+  std::vector<int> patch_sizes{7, 5};
   int directions = 32;
   double gram_weight = 0;
   double sliced_features_weight = 0;
-  double spectrum_weight = 0;
+  double spectrum_weight = 0.05;
   double autocorrelation_weight = 0;
   double variation_weight = 0;
 
@@ -97,6 +97,7 @@ struct NeuralParams {
   int levels = 0;
   int coarsest_side = 24;
   double level_factor = 0.7;
+  double copy_limit = 0.15;
   std::filesystem::path start;
   double noise = 1;
   bool match_histogram = false;
@@ -197,6 +198,14 @@ struct NeuralParams {
               "size of a level relative to the next finer one",
               "",
               {0.25, 0.95}},
+        Field{
+            "copy_limit",
+            &P::copy_limit,
+            "with levels = 0: a coarsest level of a result as large as the exemplar is left out "
+            "when "
+            "it correlates by so much more with the exemplar than the exemplar, moved, with itself",
+            "",
+            {0, 2}},
         Field{"start", &P::start, "image to start from; empty: noise"},
         Field{"noise",
               &P::noise,

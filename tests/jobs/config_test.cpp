@@ -322,7 +322,8 @@ TEST_F(ConfigText, ListsThatAreEmptyAndNothingToMatch) {
   EXPECT_NE(error_of("iterations = []\n").find("iterations is an empty list"), std::string::npos)
       << error_of("iterations = []\n");
   EXPECT_NE(error_of("optimizer = []\n").find("optimizer is an empty list"), std::string::npos);
-  EXPECT_NE(error_of("sliced_weight = 0\n").find("there is nothing to match"), std::string::npos);
+  EXPECT_NE(error_of("sliced_weight = 0\nspectrum_weight = 0\n").find("there is nothing to match"),
+            std::string::npos);
 }
 
 }  // namespace

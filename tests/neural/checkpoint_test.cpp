@@ -15,6 +15,7 @@ TEST(Checkpoint, KeepsEveryNumberExactly) {
   Checkpoint written;
   written.fingerprint = "f";
   written.iteration = (std::int64_t{1} << 53) - 1;
+  written.first_level = 4;
   written.first_loss = 1.0 / 3;
   written.picture = at::zeros({1, 2, 3});
   // As inverse_sy can be near the end, or the loss of an unnormalised layer.
@@ -25,6 +26,7 @@ TEST(Checkpoint, KeepsEveryNumberExactly) {
   const auto read = read_checkpoint(file, "f");
   ASSERT_TRUE(read);
   EXPECT_EQ(read->iteration, written.iteration);
+  EXPECT_EQ(read->first_level, written.first_level);
   EXPECT_EQ(read->first_loss, written.first_loss);
   EXPECT_EQ(read->optimiser.numbers, written.optimiser.numbers);
   EXPECT_FALSE(read_checkpoint(file, "g"));

@@ -34,7 +34,6 @@ NeuralParams grams(const GramOptions& options) {
   return params;
 }
 
-
 class GradientTest : public testing::TestWithParam<Case> {};
 
 TEST_P(GradientTest, MatchesFiniteDifferences) {

@@ -6,7 +6,11 @@
 #include <filesystem>
 
 #include "core/threads.h"
+#include "neural/layout.h"
+#include "neural/picture.h"
+#include "neural/resample.h"
 #include "neural/settings.h"
+#include "tensors.h"
 
 namespace gramloom {
 namespace {
@@ -439,12 +443,94 @@ TEST(Neural, SettingsThatCannotBeAreMistakesOfTheConfig) {
   EXPECT_EQ(complaint([](auto& p) { p.optimizer.clear(); }), "optimizer is an empty list");
   EXPECT_EQ(complaint([](auto& p) { p.patch_sizes.clear(); }), "patch_sizes is an empty list");
   EXPECT_EQ(
-      complaint([](auto& p) { p.sliced_weight = 0; }),
+      complaint([](auto& p) { p.sliced_weight = p.spectrum_weight = 0; }),
       "there is nothing to match: sliced_weight, gram_weight and the other weights are all 0");
   EXPECT_EQ(complaint([](auto& p) {
               p.iterations = {5, -1};
             }),
             "iterations = -1: allowed are 0 to 1000000");
+}
+
+// A few large blobs of colour: no texture, so that its patches fit together in one way only.
+Image scene(Size size) {
+  const at::Tensor coarse = neural::numbers({3, 6, 6}, 11) * 0.2 + 0.5;
+  return neural::to_image(neural::resample(coarse, size, Tile::none));
+}
+
+struct Layout {
+  double copied = 0;
+  std::size_t steps = 0;
+};
+Layout layout_of_result(const Image& exemplar, double copy_limit) {
+  NeuralParams params;
+  params.iterations = {2, 10, 30, 250};
+  params.copy_limit = copy_limit;
+  Trace trace;
+  const Image result =
+      synthesise(params, exemplar, {{128, 128}, Tile::none}, Random(1), trace.control()).image;
+  const auto small = [](const Image& image) {
+    return neural::resample(neural::to_planes(image), {32, 32}, Tile::none);
+  };
+  return {neural::layout_copied(small(result), small(exemplar), Tile::none), trace.steps.size()};
+}
+
+TEST(NeuralPatches, LeaveOutALevelThatBringsBackTheLayout) {
+  const Image exemplar = scene({128, 128});
+  const Layout any = layout_of_result(exemplar, 2), limited = layout_of_result(exemplar, 0.15);
+  EXPECT_GT(any.copied, 0.2);
+  EXPECT_LT(limited.copied, any.copied - 0.1);
+  EXPECT_EQ(limited.steps, any.steps);
+}
+
+// Stopped on the last step of the level that is left out, and on the first one after it.
+TEST(NeuralPatches, LeaveItOutAlsoWhenInterruptedThere) {
+  const Image exemplar = scene({128, 128});
+  NeuralParams params;
+  params.iterations = {2, 3, 4, 10, 250};
+  const Target target{{128, 128}, Tile::none};
+  Trace whole;
+  const Image expected = synthesise(params, exemplar, target, Random(1), whole.control()).image;
+  for (const std::int64_t stop : {250, 251}) {
+    const fs::path file = fs::path(testing::TempDir()) / "left_out.checkpoint";
+    fs::remove(file);
+    Trace first, second;
+    synthesise(params, exemplar, target, Random(1), first.control(stop, file));
+    EXPECT_EQ(first.steps.size(), static_cast<std::size_t>(stop));
+    EXPECT_EQ(synthesise(params, exemplar, target, Random(1), second.control(-1, file)).image,
+              expected)
+        << stop;
+    EXPECT_EQ(first.steps.size() + second.steps.size(), whole.steps.size());
+    fs::remove(file);
+  }
+}
+
+// Nor of a result smaller than the exemplar, which is like some place of it.
+TEST(NeuralPatches, KeepAllLevelsOfASmallResult) {
+  NeuralParams params;
+  params.iterations = {1, 2, 5, 60};
+  const Image exemplar = scene({128, 128});
+  const Target target{{64, 64}, Tile::both};
+  const Image kept = run(params, exemplar, target);
+  params.copy_limit = 2;
+  EXPECT_EQ(kept, run(params, exemplar, target));
+}
+
+TEST(NeuralPatches, KeepAllLevelsOfATexture) {
+  NeuralParams params;
+  params.iterations = {1, 5, 10, 100};
+  const Image exemplar = neural::to_image(
+      neural::resample(neural::numbers({3, 40, 40}, 5) * 0.2 + 0.5, {128, 128}, Tile::none));
+  const Target target{{128, 128}, Tile::both};
+  const Image kept = run(params, exemplar, target);
+  params.copy_limit = 2;
+  EXPECT_EQ(kept, run(params, exemplar, target));
+}
+
+TEST(Neural, APyramidHasNoValidEdges) {
+  NeuralParams params = with_preset(Preset::gatys);
+  params.padding = Padding::valid;
+  EXPECT_THROW(estimate(params, {64, 64}, 3, {{64, 64}, Tile::none}), ConfigError);
+  EXPECT_THROW(run(params, stripes({64, 64}, 3), {{64, 64}, Tile::none}), ConfigError);
 }
 
 TEST(Neural, APatchLargerThanTheExemplarIsAClearError) {
