@@ -6,99 +6,6 @@
 
 namespace gramloom::neural {
 
-struct NetworkTerms::Part {
-  std::vector<at::Tensor> strips;       // of the views: leaves of the graph of gradients
-  std::vector<Rows> rows;               // which rows of the views these are
-  std::vector<std::vector<Band>> maps;  // by layer and view
-  std::vector<std::vector<Rows>> own;   // the rows of these that count
-};
-
-// A picture as the network looks at it: its views, and their rows shared out among parts.
-class NetworkTerms::Parts {
- public:
-  Parts(const Network& network, const std::vector<std::size_t>& wanted, const at::Tensor& picture,
-        Edges edges, const std::vector<int>& shifts, std::int64_t positions_in_band)
-      : network_(network),
-        wanted_(wanted),
-        edges_(edges),
-        shifts_(shifts),
-        picture_(picture.detach()) {
-    if (at::GradMode::is_enabled()) picture_.requires_grad_(true);
-    views_ = network.views(picture_, edges);
-    for (const auto& view : views_) sizes_.push_back(network.sizes(size_of(view), edges));
-    const std::int64_t positions = picture.size(1) * picture.size(2);
-    count_ = (positions + positions_in_band - 1) / positions_in_band;
-    for (const auto& sizes : sizes_)  // each part has a row of each layer
-      for (const std::size_t layer : wanted)
-        count_ = std::min<std::int64_t>(count_, sizes[layer].height);
-  }
-
-  std::int64_t count() const { return count_; }
-
-  Part part(std::int64_t i) const {
-    Part part;
-    std::vector<std::vector<Rows>> needed;  // by layer and view
-    for (const std::size_t layer : wanted_) {
-      std::vector<Size> sizes;
-      std::vector<Rows> own;
-      for (const auto& of_view : sizes_) {
-        sizes.push_back(of_view[layer]);
-        own.push_back(part_of(of_view[layer].height, i, count_));
-      }
-      needed.push_back(rows_for_moments(sizes, own, wrapped_axes(edges_), shifts_));
-      part.own.push_back(std::move(own));
-    }
-    part.maps.resize(wanted_.size());
-    for (std::size_t k = 0; k < views_.size(); ++k) {
-      std::vector<Rows> rows;
-      for (const auto& of_layer : needed) rows.push_back(of_layer[k]);
-      const Band view = whole_band(views_[k].detach());
-      const Rows behind = network_.rows_of_view(size_of(view.data), edges_, wanted_, rows);
-      const at::Tensor strip = take_rows(view, behind, edges_.y).detach().requires_grad_(true);
-      const auto bands =
-          network_.bands(k, {strip, view.channels, behind, view.height}, edges_, wanted_, rows);
-      for (std::size_t l = 0; l < bands.size(); ++l) part.maps[l].push_back(bands[l]);
-      part.strips.push_back(strip);
-      part.rows.push_back(behind);
-    }
-    return part;
-  }
-
-  // Adds the gradients of a part's strips to those of the views.
-  void add(const Part& part, const std::vector<at::Tensor>& of_strips,
-           std::vector<at::Tensor>& of_views) const {
-    for (std::size_t k = 0; k < views_.size(); ++k) {
-      std::vector<std::int64_t> rows;
-      for (std::int64_t row = part.rows[k].begin; row < part.rows[k].end; ++row)
-        rows.push_back(source_of(row, views_[k].size(1), Padding::circular));
-      of_views[k].index_add_(1, at::tensor(rows, at::kLong), of_strips[k]);
-    }
-  }
-
-  // The gradient of the picture from those of its views, of which the first is the picture.
-  at::Tensor of_picture(const std::vector<at::Tensor>& of_views) const {
-    if (of_views.size() == 1) return of_views[0];
-    return of_views[0] + torch::autograd::grad({views_.begin() + 1, views_.end()}, {picture_},
-                                               {of_views.begin() + 1, of_views.end()})[0];
-  }
-
-  std::vector<at::Tensor> zeros() const {
-    std::vector<at::Tensor> result;
-    for (const auto& view : views_) result.push_back(at::zeros_like(view));
-    return result;
-  }
-
- private:
-  const Network& network_;
-  const std::vector<std::size_t>& wanted_;
-  Edges edges_;
-  const std::vector<int>& shifts_;
-  at::Tensor picture_;
-  std::vector<at::Tensor> views_;         // of it, the first being itself
-  std::vector<std::vector<Size>> sizes_;  // by view and layer
-  std::int64_t count_ = 1;
-};
-
 std::vector<at::Tensor> NetworkTerms::Statistics::sums() const {
   std::vector<at::Tensor> result;
   for (const auto& of_layer : moments) {
@@ -140,8 +47,8 @@ at::Tensor NetworkTerms::directions(std::uint64_t step, std::uint64_t map,
   return result.div_(result.norm(2, 1, true));
 }
 
-NetworkTerms::Statistics NetworkTerms::statistics(const Part& part, Edges edges, std::uint64_t step,
-                                                  bool with_moments) const {
+NetworkTerms::Statistics NetworkTerms::statistics(const PicturePart& part, Edges edges,
+                                                  std::uint64_t step, bool with_moments) const {
   Statistics result;
   for (std::size_t l = 0; l < part.maps.size(); ++l) {
     if (with_moments)
@@ -159,8 +66,8 @@ NetworkTerms::Statistics NetworkTerms::statistics(const Part& part, Edges edges,
   return result;
 }
 
-NetworkTerms::Statistics NetworkTerms::total(const Parts& parts, Edges edges, std::uint64_t step,
-                                             bool with_moments) const {
+NetworkTerms::Statistics NetworkTerms::total(const PictureParts& parts, Edges edges,
+                                             std::uint64_t step, bool with_moments) const {
   const at::NoGradGuard no_gradients;
   Statistics sum;
   std::vector<std::vector<at::Tensor>> projections;  // of each part
@@ -181,8 +88,8 @@ NetworkTerms::Statistics NetworkTerms::total(const Parts& parts, Edges edges, st
 }
 
 NetworkTerms::Statistics NetworkTerms::look_at_exemplar(std::uint64_t step, bool with_moments) {
-  const Parts parts(network_.network, wanted_, exemplar_, exemplar_edges_, options_.shifts,
-                    positions_in_band_);
+  const PictureParts parts(network_.network, wanted_, exemplar_, exemplar_edges_, options_.shifts,
+                           positions_in_band_);
   Statistics goal = total(parts, exemplar_edges_, step, with_moments);
   goals_ = goal.projections;
   for (auto& values : goals_) sort_rows(values);
@@ -223,10 +130,10 @@ std::vector<Term> NetworkTerms::add(const at::Tensor& picture, std::uint64_t ste
                                     at::Tensor& gradient) {
   if (sliced_weight_ > 0 && step != step_) look_at_exemplar(step, false);
   const at::AutoGradMode gradients(true);
-  const Parts parts(network_.network, wanted_, picture, edges_, options_.shifts,
-                    positions_in_band_);
+  const PictureParts parts(network_.network, wanted_, picture, edges_, options_.shifts,
+                           positions_in_band_);
   // First the statistics of all parts, then the gradient of each. A single part is kept between.
-  std::optional<Part> only;
+  std::optional<PicturePart> only;
   Statistics whole;
   if (parts.count() == 1) {
     only = parts.part(0);
@@ -250,7 +157,7 @@ std::vector<Term> NetworkTerms::add(const at::Tensor& picture, std::uint64_t ste
   std::vector<at::Tensor> of_views = parts.zeros();
   std::vector<std::int64_t> seen(of_projections.size());  // positions of the parts before
   for (std::int64_t i = 0; i < parts.count(); ++i) {
-    const Part part = only ? *only : parts.part(i);
+    const PicturePart part = only ? *only : parts.part(i);
     const Statistics own = only ? whole : statistics(part, edges_, step, gram_weight_ > 0);
     std::vector<at::Tensor> outputs, slopes;
     const auto pull = [&](const at::Tensor& output, const at::Tensor& slope) {

@@ -4,8 +4,7 @@
 
 #include "core/progress.h"
 #include "core/random.h"
-#include "neural/network.h"
-#include "neural/statistics.h"
+#include "neural/picture_parts.h"
 
 namespace gramloom::neural {
 
@@ -21,12 +20,6 @@ struct MatchedNetwork {
   const NetworkDescription& description;
   std::vector<MatchedLayer> layers;
 };
-
-/// Positions of a picture whose feature maps are in memory at once. Statistics are sums over
-/// positions, or sorts of few values for each, so a larger picture is looked at in bands of rows,
-/// each with the rows around it that its maps depend on, and twice: for the statistics, and for
-/// their gradient. A band has at least one row of the smallest maps.
-inline constexpr std::int64_t most_positions_in_band = std::int64_t{1} << 18;
 
 /// The terms of the loss that compare feature maps of a network with those of the exemplar, for
 /// each matched layer:
@@ -53,15 +46,15 @@ class NetworkTerms {
     std::vector<at::Tensor> projections;   // (directions, positions) of each layer, of each scale
     std::vector<at::Tensor> sums() const;  // all tensors of the moments
   };
-  class Parts;  // of a picture
-  struct Part;
 
   // What the rows of a part contribute.
-  Statistics statistics(const Part& part, Edges edges, std::uint64_t step, bool with_moments) const;
+  Statistics statistics(const PicturePart& part, Edges edges, std::uint64_t step,
+                        bool with_moments) const;
   // (directions, channels), unit vectors.
   at::Tensor directions(std::uint64_t step, std::uint64_t map, std::int64_t channels) const;
   // Of all parts together, without gradients.
-  Statistics total(const Parts& parts, Edges edges, std::uint64_t step, bool with_moments) const;
+  Statistics total(const PictureParts& parts, Edges edges, std::uint64_t step,
+                   bool with_moments) const;
   // The exemplar's statistics; the goals become those of that step.
   Statistics look_at_exemplar(std::uint64_t step, bool with_moments);
   // The weighted term of a layer, and its slopes along all tensors that it is made of.
