@@ -120,8 +120,9 @@ SlicedWork count_sliced(const NeuralParams& params, double result, double exempl
   work.operations = 2 * taps * params.directions * (2 * result + exemplar);
   work.sorted = params.directions * (result + 0.5 * exemplar);
   const double larger = std::max(result, exemplar);
-  const double at_once = std::clamp(static_cast<double>(neural::sliced_values_at_once) / larger,
-                                    2.0, std::max(2.0, static_cast<double>(params.directions)));
+  const double at_once = std::min(static_cast<double>(params.directions),
+                                  std::max(static_cast<double>(least_directions_at_once),
+                                           static_cast<double>(sliced_values_at_once) / larger));
   const double keys = 16 * larger * std::min<double>(thread_count(), at_once);
   work.bytes = sizeof(float) * 2 * at_once * larger + keys;
   return work;

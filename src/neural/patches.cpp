@@ -11,17 +11,25 @@ namespace gramloom::neural {
 
 namespace {
 
-// Rows of positions that are multiplied at once: their patches stay in the cache. At least as many
-// as a patch is high, so that stripes of one parity never write to the same row.
+// Positions whose patches are multiplied at once, in whole rows: few enough for the cache.
 constexpr std::int64_t positions_at_once = 2048;
 
 // Where patches lie in a picture that was continued across the edges where it wraps.
 struct Layout {
   std::int64_t channels, kernel, margin_y, margin_x;  // the margins lie below and to the right
   std::int64_t height, width;                         // positions
-  std::int64_t stripe, stripes;
+  // What is worked on at once, and by one thread: stripes of at least a patch's height, so that
+  // those of one parity never write to the same row.
+  std::int64_t rows_at_once, stripe, stripes;
   std::int64_t taps() const { return channels * kernel * kernel; }
-  std::int64_t rows(std::int64_t s) const { return std::min(stripe, height - s * stripe); }
+
+  // Calls f(first row, rows) for the parts of stripe s.
+  template <class F>
+  void for_each_part(std::int64_t s, F&& f) const {
+    const std::int64_t end = std::min((s + 1) * stripe, height);
+    for (std::int64_t y = s * stripe; y < end; y += rows_at_once)
+      f(y, std::min(rows_at_once, end - y));
+  }
 };
 
 Layout layout_of(const at::Tensor& planes, std::int64_t kernel, Tile wraps) {
@@ -35,7 +43,8 @@ Layout layout_of(const at::Tensor& planes, std::int64_t kernel, Tile wraps) {
   if (l.height < 1 || l.width < 1)
     throw Error("a patch of {0}×{0} does not fit into a picture of {1}×{2}", kernel, planes.size(2),
                 planes.size(1));
-  l.stripe = std::max(kernel, positions_at_once / l.width);
+  l.rows_at_once = std::max<std::int64_t>(1, positions_at_once / l.width);
+  l.stripe = (kernel + l.rows_at_once - 1) / l.rows_at_once * l.rows_at_once;
   l.stripes = (l.height + l.stripe - 1) / l.stripe;
   return l;
 }
@@ -77,17 +86,17 @@ at::Tensor project_patches(const at::Tensor& planes, const at::Tensor& filters, 
     const std::int64_t plane = picture.stride(0), row = picture.stride(1);
     parallel_for(l.stripes, 1, [&](std::int64_t begin, std::int64_t end) {
       const at::NoGradGuard no_gradients;
-      for (std::int64_t s = begin; s < end; ++s) {
-        const std::int64_t rows = l.rows(s);
-        at::Tensor matrix = at::empty({l.taps(), rows * l.width}, planes.options());
-        scalar_t* target = matrix.data_ptr<scalar_t>();
-        for_each_line(l, s * l.stripe, rows,
-                      [&](std::int64_t c, std::int64_t y, std::int64_t x, std::int64_t to) {
-                        std::copy_n(source + c * plane + y * row + x, l.width, target + to);
-                      });
-        at::Tensor part = result.narrow(1, s * l.stripe * l.width, rows * l.width);
-        at::mm_out(part, weights, matrix);
-      }
+      for (std::int64_t s = begin; s < end; ++s)
+        l.for_each_part(s, [&](std::int64_t first, std::int64_t rows) {
+          at::Tensor matrix = at::empty({l.taps(), rows * l.width}, planes.options());
+          scalar_t* target = matrix.data_ptr<scalar_t>();
+          for_each_line(l, first, rows,
+                        [&](std::int64_t c, std::int64_t y, std::int64_t x, std::int64_t to) {
+                          std::copy_n(source + c * plane + y * row + x, l.width, target + to);
+                        });
+          at::Tensor part = result.narrow(1, first * l.width, rows * l.width);
+          at::mm_out(part, weights, matrix);
+        });
     });
   });
   return result;
@@ -106,17 +115,17 @@ void spread_patches(const at::Tensor& gradient, const at::Tensor& filters, Tile 
     for (std::int64_t parity = 0; parity < 2; ++parity)
       parallel_for((l.stripes + 1 - parity) / 2, 1, [&](std::int64_t begin, std::int64_t end) {
         const at::NoGradGuard no_gradients;
-        for (std::int64_t i = begin; i < end; ++i) {
-          const std::int64_t s = 2 * i + parity, rows = l.rows(s);
-          const at::Tensor matrix =
-              at::mm(by_tap, gradient.narrow(1, s * l.stripe * l.width, rows * l.width));
-          const scalar_t* source = matrix.data_ptr<scalar_t>();
-          for_each_line(l, s * l.stripe, rows,
-                        [&](std::int64_t c, std::int64_t y, std::int64_t x, std::int64_t from) {
-                          scalar_t* out = target + c * plane + y * row + x;
-                          for (std::int64_t k = 0; k < l.width; ++k) out[k] += source[from + k];
-                        });
-        }
+        for (std::int64_t i = begin; i < end; ++i)
+          l.for_each_part(2 * i + parity, [&](std::int64_t first, std::int64_t rows) {
+            const at::Tensor matrix =
+                at::mm(by_tap, gradient.narrow(1, first * l.width, rows * l.width));
+            const scalar_t* source = matrix.data_ptr<scalar_t>();
+            for_each_line(l, first, rows,
+                          [&](std::int64_t c, std::int64_t y, std::int64_t x, std::int64_t from) {
+                            scalar_t* out = target + c * plane + y * row + x;
+                            for (std::int64_t k = 0; k < l.width; ++k) out[k] += source[from + k];
+                          });
+          });
       });
   });
   // What lies in the margins belongs to the beginning.

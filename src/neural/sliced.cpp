@@ -22,7 +22,7 @@ void check_fit(const char* what, Size size, Tile wraps, int side) {
 // Calls f(some of the filters), few enough for that many positions.
 template <class F>
 void for_each_group(const at::Tensor& filters, std::int64_t positions, F&& f) {
-  const std::int64_t at_once = std::max<std::int64_t>(2, sliced_values_at_once / positions);
+  const std::int64_t at_once = std::max(least_directions_at_once, sliced_values_at_once / positions);
   for (std::int64_t first = 0; first < filters.size(0); first += at_once)
     f(filters.narrow(0, first, std::min(at_once, filters.size(0) - first)));
 }

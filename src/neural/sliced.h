@@ -45,7 +45,9 @@ class SlicedTerm {
 };
 
 /// Values that are projected at once: a larger picture is compared along fewer directions at a
-/// time, so that memory grows with the picture alone.
+/// time, so that memory grows with the picture alone. Not along too few: patches are gathered anew
+/// each time, which costs as much as eight directions.
 inline constexpr std::int64_t sliced_values_at_once = std::int64_t{1} << 23;
+inline constexpr std::int64_t least_directions_at_once = 8;
 
 }  // namespace gramloom::neural
