@@ -29,9 +29,10 @@ inline constexpr auto enum_names<RandomWeights> = std::to_array<std::string_view
 template <>
 inline constexpr auto enum_names<Optimizer> = std::to_array<std::string_view>({"lbfgs", "adam"});
 
-/// Complete settings, each to be chosen by one word. `gatys` is the method of 2015 as published,
-/// but for normalise, centre, standardise and whitening; the others are what we found best for
-/// random filters, the faster the rougher (models/README.md).
+/// Complete settings, each to be chosen by one word. `gatys` is the loss and the
+/// optimiser of 2015, but for normalise, centre, standardise and whitening; with `network` vgg19
+/// and trained `weights` it is the published method. The others are what we found best for random
+/// filters, the faster the rougher (models/README.md).
 enum class Preset { fast, balanced, quality, gatys };
 template <>
 inline constexpr auto enum_names<Preset> = std::to_array<std::string_view>({"fast", "balanced",
@@ -39,8 +40,8 @@ inline constexpr auto enum_names<Preset> = std::to_array<std::string_view>({"fas
 
 /// Texture synthesis by statistics of a network's feature maps or of random filters: a noise image
 /// is changed step by step, coarse to fine, until its statistics are those of the exemplar. The
-/// loss is a sum of weighted terms, each 1 for a flat picture (Gram matrices: for features of
-/// nothing) and 0, or nearly, for the exemplar itself:
+/// loss is a sum of weighted terms, each about 1 for a picture of one colour (Gram matrices: when
+/// all features are 0) and 0, or nearly, for the exemplar itself:
 ///   gram             the Gram matrices of the matched layers, G_l = F_l F_lᵀ,
 ///                    E_l = 1/(4 N_l² M_l²) Σ (G_l − Ĝ_l)², with F_l the N_l feature maps of layer
 ///                    l at M_l positions (Gatys, Ecker, Bethge 2015, "Texture synthesis using
@@ -111,7 +112,7 @@ struct NeuralParams {
               "weight of the sliced Wasserstein distance of patches", "", weight},
         Field{"patch_sizes",
               &P::patch_sizes,
-              "sides of these patches; of several, steps take turns",
+              "sides of these patches; of several, steps of adam take turns",
               "pixels of the level",
               {1, 64}},
         Field{"directions",
@@ -201,9 +202,8 @@ struct NeuralParams {
         Field{
             "copy_limit",
             &P::copy_limit,
-            "with levels = 0: a coarsest level of a result as large as the exemplar is left out "
-            "when "
-            "it correlates by so much more with the exemplar than the exemplar, moved, with itself",
+            "with levels = 0: a coarsest level of a result as large as the exemplar is thrown away "
+            "when it correlates with it by so much more than a shifted exemplar does; 2: never",
             "",
             {0, 2}},
         Field{"start", &P::start, "image to start from; empty: noise"},
