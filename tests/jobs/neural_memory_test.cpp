@@ -91,6 +91,28 @@ INSTANTIATE_TEST_SUITE_P(
                                  p.network = "vgg_small";
                                  p.shifts = {1, 2, 4};
                                  p.iterations = {2};
+                               }},
+                    MemoryCase{"bands",
+                               {256, 256},
+                               {900, 700},
+                               3,
+                               [](NeuralParams& p) {
+                                 p = with_preset(Preset::gatys);
+                                 p.network = "vgg_small";
+                                 p.optimizer = {Optimizer::adam};
+                                 p.iterations = {2};
+                               }},
+                    MemoryCase{"sliced_features",
+                               {256, 256},
+                               {900, 700},
+                               3,
+                               [](NeuralParams& p) {
+                                 p = with_preset(Preset::gatys);
+                                 p.network = "vgg_small";
+                                 p.gram_weight = 0;
+                                 p.sliced_features_weight = 1;
+                                 p.optimizer = {Optimizer::adam};
+                                 p.iterations = {2};
                                }}),
     [](const auto& test) { return std::string(test.param.name); });
 
