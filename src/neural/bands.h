@@ -34,6 +34,8 @@ struct Band {
   bool whole() const { return rows == Rows{0, height}; }
   bool is_picture() const { return data.dim() == 3; }
   FeatureMaps maps() const { return {data, channels}; }
+  /// Of the whole.
+  Size size() const { return {static_cast<int>(data.size(2)), static_cast<int>(height)}; }
 };
 
 /// All rows of a picture (channels, height, width).

@@ -1,20 +1,13 @@
 #include <cmath>
 #include <set>
 
-#include "core/random.h"
 #include "io/safetensors.h"
 #include "neural/network.h"
+#include "neural/normal_numbers.h"
 
 namespace gramloom::neural {
 
 namespace {
-
-at::Tensor normal_numbers(Random random, at::IntArrayRef shape) {
-  at::Tensor numbers = at::empty(shape, at::kFloat);
-  float* values = numbers.data_ptr<float>();
-  for (std::int64_t i = 0; i < numbers.numel(); ++i) values[i] = random.normal();
-  return numbers;
-}
 
 // Rows of `filters` (outputs, size) made orthonormal, in groups of as many as there can be.
 at::Tensor orthonormal_rows(const at::Tensor& filters) {

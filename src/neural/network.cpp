@@ -113,8 +113,9 @@ std::vector<Size> Network::sizes(Size view, Edges edges) const {
     if (is<AveragePoolLayer>(layer) || is<MaxPoolLayer>(layer))
       size = {size.width / 2, size.height / 2};
     if (size.width < 1 || size.height < 1)
-      throw Error("layer '{}' of network '{}' would be empty: a picture of {}×{} is too small for it",
-                  layer.name, description_.name, view.width, view.height);
+      throw Error(
+          "layer '{}' of network '{}' would be empty: a picture of {}×{} is too small for it",
+          layer.name, description_.name, view.width, view.height);
     result.push_back(size);
   }
   return result;
@@ -213,8 +214,7 @@ Rows Network::rows_of_view(Size view, Edges edges, const std::vector<std::size_t
 std::vector<Band> Network::bands(std::size_t index, const Band& view, Edges edges,
                                  const std::vector<std::size_t>& wanted,
                                  const std::vector<Rows>& rows) const {
-  const auto sizes =
-      this->sizes({static_cast<int>(view.data.size(2)), static_cast<int>(view.height)}, edges);
+  const auto sizes = this->sizes(view.size(), edges);
   const auto needed = this->needed(sizes, edges, wanted, rows);
   std::vector<Band> result;
   Band band = view;

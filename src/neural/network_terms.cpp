@@ -38,15 +38,6 @@ NetworkTerms::NetworkTerms(const NeuralParams& params, const MatchedNetwork& net
   }
 }
 
-at::Tensor NetworkTerms::directions(std::uint64_t step, std::uint64_t map,
-                                    std::int64_t channels) const {
-  at::Tensor result = at::empty({directions_, channels}, at::kFloat);
-  Random random = random_.stream(step).stream(map);
-  float* values = result.data_ptr<float>();
-  for (std::int64_t i = 0; i < result.numel(); ++i) values[i] = random.normal();
-  return result.div_(result.norm(2, 1, true));
-}
-
 NetworkTerms::Statistics NetworkTerms::statistics(const PicturePart& part, Edges edges,
                                                   std::uint64_t step, bool with_moments) const {
   Statistics result;
@@ -60,7 +51,9 @@ NetworkTerms::Statistics NetworkTerms::statistics(const PicturePart& part, Edges
         const at::Tensor rows =
             to_rows({take_rows(band, part.own[l][k], Padding::circular), band.channels});
         result.projections.push_back(
-            at::mm(directions(step, result.projections.size(), band.channels), rows.t()));
+            at::mm(random_directions(random_.stream(step).stream(result.projections.size()),
+                                     directions_, band.channels),
+                   rows.t()));
       }
   }
   return result;

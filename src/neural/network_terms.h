@@ -50,8 +50,6 @@ class NetworkTerms {
   // What the rows of a part contribute.
   Statistics statistics(const PicturePart& part, Edges edges, std::uint64_t step,
                         bool with_moments) const;
-  // (directions, channels), unit vectors.
-  at::Tensor directions(std::uint64_t step, std::uint64_t map, std::int64_t channels) const;
   // Of all parts together, without gradients.
   Statistics total(const PictureParts& parts, Edges edges, std::uint64_t step,
                    bool with_moments) const;

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/threads.h"
+#include "neural/feature_maps.h"
 #include "neural/patches.h"
 #include "neural/wasserstein.h"
 
@@ -22,7 +23,8 @@ void check_fit(const char* what, Size size, Tile wraps, int side) {
 // Calls f(some of the filters), few enough for that many positions.
 template <class F>
 void for_each_group(const at::Tensor& filters, std::int64_t positions, F&& f) {
-  const std::int64_t at_once = std::max(least_directions_at_once, sliced_values_at_once / positions);
+  const std::int64_t at_once =
+      std::max(least_directions_at_once, sliced_values_at_once / positions);
   for (std::int64_t first = 0; first < filters.size(0); first += at_once)
     f(filters.narrow(0, first, std::min(at_once, filters.size(0) - first)));
 }
@@ -44,9 +46,7 @@ SlicedTerm::SlicedTerm(at::Tensor exemplar, Size target, Tile wraps, std::vector
       patch_sizes_(std::move(patch_sizes)),
       directions_(directions),
       random_(random) {
-  check_patches_fit(patch_sizes_,
-                    {static_cast<int>(exemplar_.size(2)), static_cast<int>(exemplar_.size(1))},
-                    target, wraps);
+  check_patches_fit(patch_sizes_, size_of(exemplar_), target, wraps);
   for_each_group(filters(0), exemplar_.numel() / exemplar_.size(0), [&](const at::Tensor& some) {
     flat_ += distance_from_mean(project_patches(exemplar_, some, Tile::none));
   });
@@ -56,12 +56,9 @@ SlicedTerm::SlicedTerm(at::Tensor exemplar, Size target, Tile wraps, std::vector
 }
 
 at::Tensor SlicedTerm::filters(std::uint64_t step) const {
-  const std::int64_t side = patch_sizes_[step % patch_sizes_.size()];
-  at::Tensor result = at::empty({directions_, exemplar_.size(0), side, side}, at::kFloat);
-  Random random = random_.stream(step);
-  float* values = result.data_ptr<float>();
-  for (std::int64_t i = 0; i < result.numel(); ++i) values[i] = random.normal();
-  return result.div_(result.flatten(1).norm(2, 1).view({-1, 1, 1, 1}));
+  const std::int64_t side = patch_sizes_[step % patch_sizes_.size()], channels = exemplar_.size(0);
+  return random_directions(random_.stream(step), directions_, channels * side * side)
+      .view({directions_, channels, side, side});
 }
 
 double SlicedTerm::add(const at::Tensor& picture, double weight, std::uint64_t step,

@@ -107,8 +107,7 @@ bool has_shift(Size size, int d) { return std::min(size.height, size.width) >= 2
 void add_shifted(const Band& band, Rows own, std::int64_t first, Tile tile,
                  const std::vector<int>& shifts, std::vector<Moments::Shifted>& shifted) {
   for (const int d : shifts) {
-    if (!has_shift({static_cast<int>(band.data.size(2)), static_cast<int>(band.height)}, d))
-      continue;
+    if (!has_shift(band.size(), d)) continue;
     for (const auto& [dy, dx] : {std::pair{0, d}, {d, 0}, {d, d}, {d, -d}})
       shifted.push_back({first, dy, dx, shifted_products(band, own, dy, dx, tile)});
   }
@@ -151,7 +150,7 @@ Moments moments(const std::vector<Band>& scales, const std::vector<Rows>& own, T
     const Moments alone = own_moments(scale, own[k]);
     means.push_back(alone.mean);
     for (std::size_t j = 0; j < finer.size(); ++j) {
-      const Size size{static_cast<int>(scale.data.size(2)), static_cast<int>(scale.height)};
+      const Size size = scale.size();
       finer[j] = shrink(finer[j], size, scale.rows, tile);
       const at::Tensor cross =
           at::mm(to_rows(rows_of(scale, own[k])).t(), to_rows(rows_of(finer[j], own[k]))) /

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/threads.h"
+#include "neural/normal_numbers.h"
 
 namespace gramloom::neural {
 
@@ -66,6 +67,11 @@ float at_rank(const float* sorted, std::int64_t available, std::int64_t i, std::
 }
 
 }  // namespace
+
+at::Tensor random_directions(Random random, std::int64_t count, std::int64_t length) {
+  at::Tensor result = normal_numbers(random, {count, length});
+  return result.div_(result.norm(2, 1, true));
+}
 
 void sort_rows(at::Tensor& rows) {
   const std::int64_t count = rows.size(1);

@@ -2,7 +2,12 @@
 
 #include <ATen/ATen.h>
 
+#include "core/random.h"
+
 namespace gramloom::neural {
+
+/// Unit vectors to project on, evenly spread over all directions: (count, length), floats.
+at::Tensor random_directions(Random random, std::int64_t count, std::int64_t length);
 
 /// Puts each row of (rows, values), contiguous floats, into ascending order.
 void sort_rows(at::Tensor& rows);

@@ -39,6 +39,13 @@ struct MemoryCase {
   void (*change)(NeuralParams&);
 };
 
+NeuralParams small_network() {
+  NeuralParams params = with_preset(Preset::gatys);
+  params.network = "vgg_small";
+  params.iterations = {2};
+  return params;
+}
+
 class NeuralMemory : public testing::TestWithParam<MemoryCase> {};
 
 TEST_P(NeuralMemory, IsAtMostTheEstimate) {
@@ -56,64 +63,51 @@ TEST_P(NeuralMemory, IsAtMostTheEstimate) {
 
 INSTANTIATE_TEST_SUITE_P(
     Cases, NeuralMemory,
-    testing::Values(MemoryCase{"grey", {256, 256}, {900, 700}, 1, [](NeuralParams&) {}},
-                    MemoryCase{"colour", {256, 256}, {900, 700}, 3, [](NeuralParams&) {}},
-                    MemoryCase{"stack", {256, 256}, {900, 700}, 5, [](NeuralParams&) {}},
-                    MemoryCase{"large_exemplar", {900, 700}, {200, 200}, 3, [](NeuralParams&) {}},
-                    MemoryCase{"lbfgs",
-                               {256, 256},
-                               {900, 700},
-                               3,
-                               [](NeuralParams& p) { p.optimizer = {Optimizer::lbfgs}; }},
-                    MemoryCase{"other_terms",
-                               {256, 256},
-                               {900, 700},
-                               3,
-                               [](NeuralParams& p) {
-                                 p.spectrum_weight = p.autocorrelation_weight = p.variation_weight =
-                                     1;
-                               }},
-                    MemoryCase{"gatys",
-                               {256, 256},
-                               {500, 400},
-                               3,
-                               [](NeuralParams& p) {
-                                 p = with_preset(Preset::gatys);
-                                 p.network = "vgg_small";
-                                 p.iterations = {2};
-                               }},
-                    MemoryCase{"shifts",
-                               {256, 256},
-                               {500, 400},
-                               3,
-                               [](NeuralParams& p) {
-                                 p = with_preset(Preset::gatys);
-                                 p.network = "vgg_small";
-                                 p.shifts = {1, 2, 4};
-                                 p.iterations = {2};
-                               }},
-                    MemoryCase{"bands",
-                               {256, 256},
-                               {900, 700},
-                               3,
-                               [](NeuralParams& p) {
-                                 p = with_preset(Preset::gatys);
-                                 p.network = "vgg_small";
-                                 p.optimizer = {Optimizer::adam};
-                                 p.iterations = {2};
-                               }},
-                    MemoryCase{"sliced_features",
-                               {256, 256},
-                               {900, 700},
-                               3,
-                               [](NeuralParams& p) {
-                                 p = with_preset(Preset::gatys);
-                                 p.network = "vgg_small";
-                                 p.gram_weight = 0;
-                                 p.sliced_features_weight = 1;
-                                 p.optimizer = {Optimizer::adam};
-                                 p.iterations = {2};
-                               }}),
+    testing::Values(
+        MemoryCase{"grey", {256, 256}, {900, 700}, 1, [](NeuralParams&) {}},
+        MemoryCase{"colour", {256, 256}, {900, 700}, 3, [](NeuralParams&) {}},
+        MemoryCase{"stack", {256, 256}, {900, 700}, 5, [](NeuralParams&) {}},
+        MemoryCase{"large_exemplar", {900, 700}, {200, 200}, 3, [](NeuralParams&) {}},
+        MemoryCase{"lbfgs",
+                   {256, 256},
+                   {900, 700},
+                   3,
+                   [](NeuralParams& p) { p.optimizer = {Optimizer::lbfgs}; }},
+        MemoryCase{"other_terms",
+                   {256, 256},
+                   {900, 700},
+                   3,
+                   [](NeuralParams& p) {
+                     p.spectrum_weight = p.autocorrelation_weight = p.variation_weight = 1;
+                   }},
+        MemoryCase{
+            "gatys", {256, 256}, {500, 400}, 3, [](NeuralParams& p) { p = small_network(); }},
+        MemoryCase{"shifts",
+                   {256, 256},
+                   {500, 400},
+                   3,
+                   [](NeuralParams& p) {
+                     p = small_network();
+                     p.shifts = {1, 2, 4};
+                   }},
+        MemoryCase{"bands",
+                   {256, 256},
+                   {900, 700},
+                   3,
+                   [](NeuralParams& p) {
+                     p = small_network();
+                     p.optimizer = {Optimizer::adam};
+                   }},
+        MemoryCase{"sliced_features",
+                   {256, 256},
+                   {900, 700},
+                   3,
+                   [](NeuralParams& p) {
+                     p = small_network();
+                     p.gram_weight = 0;
+                     p.sliced_features_weight = 1;
+                     p.optimizer = {Optimizer::adam};
+                   }}),
     [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "networks.h"
 #include "neural/network_terms.h"
 #include "neural/resample.h"
 #include "tensors.h"
@@ -33,23 +34,6 @@ NetworkDescription bank() {
   return network;
 }
 
-NetworkDescription pyramid() {
-  NetworkDescription network;
-  network.name = "pyramid";
-  network.layers = {{"pyramid1", PyramidLayer{5, 3, 3}},
-                    {"relu1", ReluLayer{}},
-                    {"conv2", ConvolutionLayer{4, 3, 1}},
-                    {"relu2", ReluLayer{}}};
-  return network;
-}
-
-Network ready(const NetworkDescription& description, at::ScalarType type) {
-  const auto shapes = filter_shapes(description, 2);
-  auto weights = random_filters(shapes, RandomWeights::he_normal, 3);
-  for (auto& w : weights) w.weights = w.weights.to(type);
-  return {description, shapes, weights, Pooling::as_described};
-}
-
 TEST(TakeRows, GoOnBeyondTheEdges) {
   const at::Tensor rows = at::arange(4, at::kDouble).view({1, 4, 1});
   const auto taken = [&](Rows wanted, Padding padding) {
@@ -77,11 +61,11 @@ TEST(TakeRows, SeeTheSameFromWhatTheyAreMadeOf) {
 
 // Any rows of any layer, at odd sizes, are those of the whole picture's maps.
 TEST(Bands, HaveTheRowsOfTheWhole) {
-  for (const auto& description : {deep(), bank(), pyramid()})
+  for (const auto& description : {deep(), bank(), pyramid_network()})
     for (const auto padding : paddings) {
       if (padding == Padding::valid && description.name == "pyramid") continue;
       const Edges edges{Padding::circular, padding};
-      const Network network = ready(description, at::kDouble);
+      const Network network = random_network(description, at::kDouble);
       const at::Tensor picture = numbers({2, 47, 22}, 1, at::kDouble);
       std::vector<std::size_t> all(description.layers.size());
       for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
@@ -143,7 +127,7 @@ struct Evaluated {
 Evaluated evaluate(const NetworkDescription& description, const NeuralParams& params,
                    const at::Tensor& exemplar, const at::Tensor& picture, Edges edges,
                    std::int64_t positions_in_band) {
-  const Network network = ready(description, picture.scalar_type());
+  const Network network = random_network(description, picture.scalar_type());
   const std::size_t last = description.layers.size() - 1;
   NetworkTerms terms(params, {network, description, {{0, 1}, {last, 0.5}}}, exemplar,
                      {Padding::reflect, Padding::reflect}, edges, Random(1), positions_in_band);
@@ -164,7 +148,7 @@ void expect_same(const Evaluated& a, const Evaluated& b, double tolerance) {
 TEST(NetworkTerms, OfBandsAreThoseOfTheWhole) {
   const at::Tensor exemplar = numbers({2, 33, 30}, 1, at::kDouble);
   const at::Tensor picture = numbers({2, 57, 46}, 2, at::kDouble);
-  for (const auto& description : {deep(), bank(), pyramid()})
+  for (const auto& description : {deep(), bank(), pyramid_network()})
     for (const auto padding : paddings)
       for (const auto& shifts : {std::vector<int>{}, std::vector<int>{1, 3}}) {
         if (padding == Padding::valid && description.name == "pyramid") continue;
@@ -181,7 +165,7 @@ TEST(NetworkTerms, OfBandsAreThoseOfTheWhole) {
 // In float, and with the values that are sorted.
 TEST(NetworkTerms, OfBandsAreThoseOfTheWholeToFloatPrecision) {
   const at::Tensor exemplar = numbers({2, 33, 30}, 1), picture = numbers({2, 57, 46}, 2);
-  for (const auto& description : {deep(), bank(), pyramid()})
+  for (const auto& description : {deep(), bank(), pyramid_network()})
     for (const auto padding : paddings) {
       if (padding == Padding::valid && description.name == "pyramid") continue;
       const auto of = [&](std::int64_t positions_in_band) {
@@ -201,9 +185,9 @@ TEST(Bands, InFloatAreThoseInDouble) {
     for (const auto padding : paddings) {
       const Edges edges{padding, padding};
       const std::vector<std::size_t> last{description.layers.size() - 1};
-      const auto as_float = ready(description, at::kFloat)(picture, edges, last)[0][0];
+      const auto as_float = random_network(description, at::kFloat)(picture, edges, last)[0][0];
       const auto as_double =
-          ready(description, at::kDouble)(picture.to(at::kDouble), edges, last)[0][0];
+          random_network(description, at::kDouble)(picture.to(at::kDouble), edges, last)[0][0];
       EXPECT_LT(relative_difference(to_planes(as_float), to_planes(as_double)), 1e-5)
           << description.name << " " << to_word(padding);
     }
@@ -214,7 +198,7 @@ TEST(NetworkTerms, OfAnExemplarTooSmallForTheShifts) {
   const at::Tensor exemplar = numbers({2, 16, 16}, 1, at::kDouble);
   const at::Tensor picture = numbers({2, 40, 40}, 2, at::kDouble);
   const auto of = [&](std::int64_t positions_in_band) {
-    return evaluate(pyramid(), matched(1, 0, {3}), exemplar, picture,
+    return evaluate(pyramid_network(), matched(1, 0, {3}), exemplar, picture,
                     {Padding::circular, Padding::circular}, positions_in_band);
   };
   const auto whole = of(1 << 20);

@@ -1,6 +1,7 @@
 // The gradient of the whole loss on a tiny picture against finite differences in double.
 #include <gtest/gtest.h>
 
+#include "networks.h"
 #include "neural/loss.h"
 #include "tensors.h"
 
@@ -39,10 +40,7 @@ class GradientTest : public testing::TestWithParam<Case> {};
 TEST_P(GradientTest, MatchesFiniteDifferences) {
   const Case c = GetParam();
   const NetworkDescription description = tiny_network();
-  const auto shapes = filter_shapes(description, 2);
-  auto weights = random_filters(shapes, RandomWeights::he_normal, 3);
-  for (auto& w : weights) w.weights = w.weights.to(at::kDouble);
-  const Network network(description, shapes, weights, c.pooling);
+  const Network network = random_network(description, at::kDouble, c.pooling);
   const Edges edges{c.padding, c.padding};
   const at::Tensor exemplar = numbers({2, 16, 18}, 1, at::kDouble);
   const at::Tensor picture = numbers({2, 15, 17}, 2, at::kDouble);
@@ -80,16 +78,8 @@ std::vector<Case> cases() {
 }
 
 TEST(PyramidGradient, MatchesFiniteDifferences) {
-  NetworkDescription description;
-  description.name = "pyramid";
-  description.layers = {{"pyramid1", PyramidLayer{5, 3, 3}},
-                        {"relu1", ReluLayer{}},
-                        {"conv2", ConvolutionLayer{4, 3, 1}},
-                        {"relu2", ReluLayer{}}};
-  const auto shapes = filter_shapes(description, 2);
-  auto weights = random_filters(shapes, RandomWeights::he_normal, 3);
-  for (auto& w : weights) w.weights = w.weights.to(at::kDouble);
-  const Network network(description, shapes, weights, Pooling::as_described);
+  const NetworkDescription description = pyramid_network();
+  const Network network = random_network(description, at::kDouble);
   for (const auto padding : {Padding::circular, Padding::reflect, Padding::zero}) {
     const Edges edges{padding, padding};
     const at::Tensor picture = numbers({2, 13, 18}, 2, at::kDouble);  // odd: sizes 13, 7, 4

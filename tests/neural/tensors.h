@@ -1,19 +1,13 @@
 #pragma once
 
-#include <ATen/ATen.h>
-
-#include "core/random.h"
+#include "neural/normal_numbers.h"
 
 namespace gramloom::neural {
 
 /// Normal numbers that every run of the tests has alike.
 inline at::Tensor numbers(at::IntArrayRef shape, std::uint64_t seed,
                           at::ScalarType type = at::kFloat) {
-  Random random(seed);
-  at::Tensor tensor = at::empty(shape, at::kFloat);
-  float* values = tensor.data_ptr<float>();
-  for (std::int64_t i = 0; i < tensor.numel(); ++i) values[i] = random.normal();
-  return tensor.to(type);
+  return normal_numbers(Random(seed), shape).to(type);
 }
 
 /// Largest difference relative to the largest value.
