@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "classic/patch_field.h"
-#include "core/colour_pca.h"
+#include "signal/colour_pca.h"
 
 namespace gramloom {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "classic/check_input.h"
-#include "classic/fourier.h"
 #include "core/threads.h"
+#include "signal/fourier.h"
 
 namespace gramloom {
 

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/colour_pca.h"
+#include "signal/colour_pca.h"
 
 namespace gramloom::pixel {
 namespace {

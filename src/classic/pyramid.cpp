@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "classic/check_input.h"
-#include "classic/fourier.h"
-#include "classic/steerable_pyramid.h"
-#include "core/colour_pca.h"
-#include "core/histogram_match.h"
 #include "core/threads.h"
+#include "signal/colour_pca.h"
+#include "signal/fourier.h"
+#include "signal/histogram_match.h"
+#include "signal/steerable_pyramid.h"
 
 namespace gramloom {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/resize.h"
+#include "signal/resize.h"
 
 namespace gramloom {
 

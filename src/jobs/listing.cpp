@@ -8,7 +8,7 @@
 #include "jobs/progress_bar.h"
 #include "jobs/text_table.h"
 #include "metrics/scores.h"
-#include "neural/network_description.h"
+#include "neural/network/network_description.h"
 
 namespace gramloom {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "classic/fourier.h"
-#include "classic/steerable_pyramid.h"
 #include "core/threads.h"
+#include "signal/fourier.h"
+#include "signal/steerable_pyramid.h"
 
 namespace gramloom {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/colour_pca.h"
 #include "core/image.h"
+#include "signal/colour_pca.h"
 
 namespace gramloom {
 

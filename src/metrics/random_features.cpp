@@ -6,11 +6,11 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "classic/fourier.h"
 #include "core/random.h"
 #include "core/simd.h"
 #include "core/threads.h"
 #include "metrics/components.h"
+#include "signal/fourier.h"
 
 namespace gramloom {
 

@@ -4,18 +4,18 @@
 #include <cmath>
 
 #include "classic/check_input.h"
-#include "classic/fourier.h"
 #include "core/error.h"
 #include "metrics/bands.h"
 #include "metrics/components.h"
 #include "metrics/copying.h"
-#include "metrics/correlation.h"
 #include "metrics/portilla_simoncelli.h"
 #include "metrics/random_features.h"
 #include "metrics/seams.h"
 #include "metrics/spectrum.h"
 #include "metrics/stsim.h"
 #include "metrics/wasserstein.h"
+#include "signal/correlation.h"
+#include "signal/fourier.h"
 
 namespace gramloom {
 

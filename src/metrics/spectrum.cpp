@@ -5,8 +5,8 @@
 #include <numbers>
 #include <vector>
 
-#include "classic/fourier.h"
 #include "core/threads.h"
+#include "signal/fourier.h"
 
 namespace gramloom {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "neural/optimiser.h"
+#include "neural/optimise/optimiser.h"
 
 namespace gramloom::neural {
 

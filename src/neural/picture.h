@@ -2,8 +2,8 @@
 
 #include <ATen/ATen.h>
 
-#include "core/colour_pca.h"
 #include "core/image.h"
+#include "signal/colour_pca.h"
 
 namespace gramloom::neural {
 

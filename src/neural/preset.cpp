@@ -1,4 +1,4 @@
-#include "neural/synthesis.h"
+#include "neural/params.h"
 
 namespace gramloom {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "neural/bands.h"
+#include "neural/network/bands.h"
 
 namespace gramloom::neural {
 

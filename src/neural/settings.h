@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "neural/loss.h"
-#include "neural/synthesis.h"
+#include "neural/loss/loss.h"
+#include "neural/params.h"
 
 namespace gramloom::neural {
 

@@ -6,15 +6,15 @@
 #include <cmath>
 #include <optional>
 
-#include "core/histogram_match.h"
 #include "core/threads.h"
 #include "io/image_file.h"
 #include "neural/checkpoint.h"
 #include "neural/layout.h"
-#include "neural/loss.h"
+#include "neural/loss/loss.h"
 #include "neural/picture.h"
 #include "neural/resample.h"
 #include "neural/settings.h"
+#include "signal/histogram_match.h"
 
 namespace gramloom {
 

@@ -4,8 +4,8 @@
 #include <benchmark/benchmark.h>
 
 #include "core/threads.h"
-#include "neural/loss.h"
-#include "neural/optimiser.h"
+#include "neural/loss/loss.h"
+#include "neural/optimise/optimiser.h"
 #include "neural/picture.h"
 #include "neural/settings.h"
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "classic/fourier.h"
-#include "classic/steerable_pyramid.h"
-#include "core/histogram_match.h"
+#include "signal/fourier.h"
+#include "signal/histogram_match.h"
+#include "signal/steerable_pyramid.h"
 
 namespace gramloom {
 namespace {

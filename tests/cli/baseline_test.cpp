@@ -1,12 +1,13 @@
 // gramloom run --baseline from outside, on the golden baseline and on broken ones.
 #include "cli/workspace.h"
+#include "source_folder.h"
 
 namespace gramloom {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path golden = fs::path(GRAMLOOM_SOURCE_DIR) / "tests/golden";
+const fs::path golden = source_folder() / "tests/golden";
 
 class BaselineRun : public Workspace {
  protected:

@@ -1,5 +1,6 @@
 // The exemplars that we ship are what their config makes, byte for byte.
 #include "cli/workspace.h"
+#include "source_folder.h"
 
 namespace gramloom {
 namespace {
@@ -9,7 +10,7 @@ namespace fs = std::filesystem;
 class Exemplars : public Workspace {};
 
 TEST_F(Exemplars, AreWhatTheirConfigMakes) {
-  const fs::path data = fs::path(GRAMLOOM_SOURCE_DIR) / "data";
+  const fs::path data = source_folder() / "data";
   const Outcome made =
       run({"run", (data / "exemplars.toml").string(), "--output", "made", "--quiet"});
   ASSERT_EQ(made.exit_code, 0) << made.errors;

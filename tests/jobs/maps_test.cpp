@@ -1,9 +1,9 @@
 // Exemplars with maps: read with the picture, made with it, written beside it.
 #include <gtest/gtest.h>
 
-#include "io/resize.h"
 #include "jobs/run_folder.h"
 #include "metrics/scores.h"
+#include "signal/resize.h"
 
 namespace gramloom {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "jobs/config.h"
 #include "jobs/plan.h"
+#include "source_folder.h"
 
 namespace gramloom {
 namespace {
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 
 TEST(ShippedConfigs, AreValidAndEveryJobCanRun) {
   for (const char* folder : {"configs", "data"}) {
-    const fs::path path = fs::path(GRAMLOOM_SOURCE_DIR) / folder;
+    const fs::path path = source_folder() / folder;
     if (!fs::is_directory(path)) continue;
     for (const auto& entry : fs::directory_iterator(path)) {
       if (entry.path().extension() != ".toml") continue;

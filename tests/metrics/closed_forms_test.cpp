@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "classic/fourier.h"
 #include "metrics/bands.h"
 #include "metrics/components.h"
 #include "metrics/pictures.h"
@@ -12,6 +11,7 @@
 #include "metrics/spectrum.h"
 #include "metrics/stsim.h"
 #include "metrics/wasserstein.h"
+#include "signal/fourier.h"
 
 namespace gramloom {
 namespace {

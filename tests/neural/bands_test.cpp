@@ -1,10 +1,10 @@
 // A picture looked at in bands of rows has the same maps, statistics and gradients as a whole one.
-#include "neural/bands.h"
+#include "neural/network/bands.h"
 
 #include <gtest/gtest.h>
 
 #include "networks.h"
-#include "neural/network_terms.h"
+#include "neural/loss/network_terms.h"
 #include "neural/resample.h"
 #include "tensors.h"
 

@@ -1,4 +1,4 @@
-#include "neural/convolution.h"
+#include "neural/network/convolution.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "neural/feature_maps.h"
+#include "neural/network/feature_maps.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "networks.h"
-#include "neural/loss.h"
+#include "neural/loss/loss.h"
 #include "tensors.h"
 
 namespace gramloom::neural {

@@ -1,6 +1,6 @@
 // The sliced Wasserstein distance of feature maps; Gram matrices are in statistics_test.cpp and
 // gradient_test.cpp, both in bands in bands_test.cpp.
-#include "neural/network_terms.h"
+#include "neural/loss/network_terms.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "neural/network.h"
+#include "neural/network/network.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

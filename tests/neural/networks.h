@@ -1,6 +1,6 @@
 #pragma once
 
-#include "neural/network.h"
+#include "neural/network/network.h"
 
 namespace gramloom::neural {
 

@@ -1,10 +1,10 @@
-#include "neural/optimiser.h"
+#include "neural/optimise/optimiser.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "neural/line_search.h"
+#include "neural/optimise/line_search.h"
 #include "tensors.h"
 
 namespace gramloom::neural {

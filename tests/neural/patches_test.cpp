@@ -1,4 +1,4 @@
-#include "neural/patches.h"
+#include "neural/loss/patches.h"
 
 #include <gtest/gtest.h>
 

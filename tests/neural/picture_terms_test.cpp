@@ -1,4 +1,4 @@
-#include "neural/picture_terms.h"
+#include "neural/loss/picture_terms.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "neural/sliced.h"
+#include "neural/loss/sliced.h"
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "core/threads.h"
-#include "neural/patches.h"
-#include "neural/wasserstein.h"
+#include "neural/loss/patches.h"
+#include "neural/loss/wasserstein.h"
 #include "tensors.h"
 
 namespace gramloom::neural {

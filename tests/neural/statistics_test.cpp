@@ -1,4 +1,4 @@
-#include "neural/statistics.h"
+#include "neural/loss/statistics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "neural/wasserstein.h"
+#include "neural/loss/wasserstein.h"
 
 #include <gtest/gtest.h>
 

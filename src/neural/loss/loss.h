@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+
+#include "core/progress.h"
+#include "neural/loss/network_terms.h"
+#include "neural/loss/picture_terms.h"
+
+namespace gramloom::neural {
+
+/// The weighted sum of NeuralParams' terms for one exemplar and one size of the result.
+class Loss {
+ public:
+  /// target: the result on this level. exemplar: (channels, height, width); its edges and those of
+  /// the result are what the network sees beyond them. `network` may be null when no term needs it.
+  Loss(const NeuralParams& params, const MatchedNetwork* network, const at::Tensor& exemplar,
+       Edges exemplar_edges, const Target& target, Edges edges, Random random);
+
+  /// The loss of a picture (channels, height, width) and its gradient. Losses of one step are those
+  /// of one function; a step has random directions of its own.
+  double operator()(const at::Tensor& picture, std::uint64_t step, at::Tensor& gradient);
+  /// The weighted terms by name, of the last picture.
+  const std::vector<Term>& terms() const { return terms_; }
+
+ private:
+  std::optional<NetworkTerms> network_terms_;
+  std::vector<std::pair<PictureTerm, double>> picture_terms_;  // with their weights
+  std::vector<Term> terms_;
+};
+
+}  // namespace gramloom::neural

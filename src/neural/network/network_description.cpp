@@ -1,0 +1,167 @@
+#include "neural/network/network_description.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+#include "io/text_file.h"
+#include "io/toml_reader.h"
+#include "neural/models_folder.h"
+
+namespace gramloom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+LayerKind read_kind(const toml::table& table) {
+  LayerKind kind;
+  with_alternative<LayerKind>(read_alternative<LayerKind>(table, "type"),
+                              [&]<class T>(std::type_identity<T>) {
+                                check_keys(table, key_names<T>({"name", "type"}));
+                                T layer;
+                                read_fields(layer, table);
+                                kind = layer;
+                              });
+  return kind;
+}
+
+void check_odd(int kernel, const toml::table& table, std::string_view key) {
+  if (kernel % 2 == 0)
+    fail(key_region(table, key), "'{}' = {}: a filter's side must be odd", key, kernel);
+}
+
+void check_branches(BankLayer& bank, const toml::table& table) {
+  const std::size_t branches = bank.kernels.size();
+  if (branches == 0) fail(key_region(table, "kernels"), "'kernels' is empty");
+  for (const int kernel : bank.kernels) check_odd(kernel, table, "kernels");
+  if (bank.dilations.empty()) bank.dilations.assign(branches, 1);
+  if (bank.blurs.empty()) bank.blurs.assign(branches, 0);
+  const auto check = [&](std::size_t count, std::string_view key) {
+    if (count != branches)
+      fail(key_region(table, key), "'{}' has {} values, 'kernels' has {}", key, count, branches);
+  };
+  check(bank.dilations.size(), "dilations");
+  check(bank.blurs.size(), "blurs");
+}
+
+Layer read_layer(const toml::table& table) {
+  Layer layer{required_text(table, "name"), read_kind(table)};
+  if (const auto* convolution = std::get_if<ConvolutionLayer>(&layer.kind))
+    check_odd(convolution->kernel, table, "kernel");
+  if (const auto* pyramid = std::get_if<PyramidLayer>(&layer.kind))
+    check_odd(pyramid->kernel, table, "kernel");
+  if (auto* bank = std::get_if<BankLayer>(&layer.kind)) check_branches(*bank, table);
+  return layer;
+}
+
+void read_layers(NetworkDescription& network, const toml::table& table) {
+  const toml::node* node = table.get("layer");
+  if (!node || !node->is_array_of_tables())
+    fail(key_region(table, "layer"), "a network needs [[layer]] tables");
+  std::set<std::string> names;
+  for (const auto& element : *node->as_array()) {
+    const toml::table& layer = *element.as_table();
+    network.layers.push_back(read_layer(layer));
+    if (network.layers.size() > 1 &&
+        std::holds_alternative<PyramidLayer>(network.layers.back().kind))
+      fail(key_region(layer, "type"), "a pyramid must be the first layer");
+    if (!names.insert(network.layers.back().name).second)
+      fail(key_region(layer, "name"), "two layers are named '{}'", network.layers.back().name);
+  }
+}
+
+std::vector<std::string> layer_names(const NetworkDescription& network) {
+  std::vector<std::string> names;
+  for (const auto& layer : network.layers) names.push_back(layer.name);
+  return names;
+}
+
+// The folder of shipped networks: named by the user, beside the installed program, or the sources'.
+fs::path models_folder() {
+  if (const char* named = std::getenv("GRAMLOOM_MODELS")) return named;
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const fs::path installed = program.parent_path().parent_path() / "share/gramloom/models";
+  return fs::is_directory(installed, error) ? installed : fs::path(source_models_folder);
+}
+
+}  // namespace
+
+std::vector<fs::path> known_networks() {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(models_folder(), error))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+fs::path find_network(const fs::path& network) {
+  if (network.has_parent_path() || network.has_extension()) return network;
+  std::vector<std::string> names;
+  for (const auto& file : known_networks()) {
+    if (file.stem() == network) return file;
+    names.push_back(file.stem().string());
+  }
+  throw ConfigError("unknown network '{}' (in {} are {})", network.string(),
+                    models_folder().string(), fmt::join(names, ", "));
+}
+
+NetworkDescription read_network(const fs::path& file) {
+  std::string text;
+  try {
+    text = read_text(file);
+  } catch (const Error& error) {
+    throw ConfigError("{}", error.what());
+  }
+  const toml::table table = parse_toml(text, file.string());
+  check_keys(table, key_names<NetworkDescription>({"layer"}));
+  NetworkDescription network;
+  network.name = required_text(table, "name");
+  read_fields(network, table);
+  read_layers(network, table);
+  for (const auto& name : network.matched) {
+    const auto names = layer_names(network);
+    index_of_word(name, names, "layer", key_region(table, "matched"));
+  }
+  if (network.matched.empty()) fail(key_region(table, "matched"), "'matched' names no layer");
+  if (network.input_mean.size() != network.input_deviation.size())
+    fail(key_region(table, "input_deviation"),
+         "'input_mean' has {} values, 'input_deviation' has {}", network.input_mean.size(),
+         network.input_deviation.size());
+  return network;
+}
+
+std::size_t find_layer(const NetworkDescription& network, const std::string& layer) {
+  const auto names = layer_names(network);
+  const auto found = std::find(names.begin(), names.end(), layer);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  const std::string guess = closest_word(layer, names);
+  throw ConfigError("network '{}' has no layer '{}' ({})", network.name, layer,
+                    guess.empty() ? fmt::format("it has {}", fmt::join(names, ", "))
+                                  : fmt::format("did you mean '{}'?", guess));
+}
+
+std::vector<FilterShape> filter_shapes(const NetworkDescription& network, int channels) {
+  std::vector<FilterShape> shapes;
+  for (std::size_t i = 0; i < network.layers.size(); ++i) {
+    if (const auto* l = std::get_if<ConvolutionLayer>(&network.layers[i].kind)) {
+      shapes.push_back({i, l->channels, channels, l->kernel, l->dilation, 0});
+      channels = l->channels;
+    } else if (const auto* bank = std::get_if<BankLayer>(&network.layers[i].kind)) {
+      const std::size_t branches = bank->kernels.size();
+      for (std::size_t b = 0; b < branches; ++b)
+        shapes.push_back(
+            {i, bank->channels, channels, bank->kernels[b], bank->dilations[b], bank->blurs[b]});
+      channels = bank->channels * static_cast<int>(branches);
+    } else if (const auto* pyramid = std::get_if<PyramidLayer>(&network.layers[i].kind)) {
+      for (int scale = 0; scale < pyramid->scales; ++scale)
+        shapes.push_back({i, pyramid->channels, channels, pyramid->kernel, 1, 0});
+      channels = pyramid->channels;
+    }
+  }
+  return shapes;
+}
+
+}  // namespace gramloom

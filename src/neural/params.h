@@ -1,0 +1,222 @@
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/fields.h"
+
+namespace gramloom {
+
+/// What a convolution sees beyond the edges of the picture.
+enum class Padding { circular, reflect, zero, valid };
+enum class Pooling { as_described, average, max };
+enum class RandomWeights { he_normal, orthogonal };
+enum class Optimizer { lbfgs, adam };
+
+template <>
+inline constexpr auto enum_names<Padding> = std::to_array<std::string_view>({"circular", "reflect",
+                                                                             "zero", "valid"});
+template <>
+inline constexpr auto enum_names<Pooling> = std::to_array<std::string_view>({"as_described",
+                                                                             "average", "max"});
+template <>
+inline constexpr auto enum_names<RandomWeights> = std::to_array<std::string_view>({"he_normal",
+                                                                                   "orthogonal"});
+template <>
+inline constexpr auto enum_names<Optimizer> = std::to_array<std::string_view>({"lbfgs", "adam"});
+
+/// Complete settings, each to be chosen by one word. `gatys` is the loss and the
+/// optimiser of 2015, but for normalise, centre, standardise and whitening; with `network` vgg19
+/// and trained `weights` it is the published method. The others are what we found best for random
+/// filters, the faster the rougher (models/README.md).
+enum class Preset { fast, balanced, quality, gatys };
+template <>
+inline constexpr auto enum_names<Preset> = std::to_array<std::string_view>({"fast", "balanced",
+                                                                            "quality", "gatys"});
+
+/// Texture synthesis by statistics of a network's feature maps or of random filters: a noise image
+/// is changed step by step, coarse to fine, until its statistics are those of the exemplar. The
+/// loss is a sum of weighted terms, each about 1 for a picture of one colour (Gram matrices: when
+/// all features are 0) and 0, or nearly, for the exemplar itself:
+///   gram             the Gram matrices of the matched layers, G_l = F_l F_lᵀ,
+///                    E_l = 1/(4 N_l² M_l²) Σ (G_l − Ĝ_l)², with F_l the N_l feature maps of layer
+///                    l at M_l positions (Gatys, Ecker, Bethge 2015, "Texture synthesis using
+///                    convolutional neural networks", equations 1 to 4). Departures, each an
+///                    option: G is divided by M, so that exemplar and result may differ in size
+///                    (equal to the paper when they don't); see normalise, centre, standardise,
+///                    shifts, whitening.
+///   sliced           the sliced Wasserstein distance between the two pictures' sets of patches,
+///                    along random directions that are drawn anew in each step of Adam (Heitz,
+///                    Vanhoey, Chambon, Belcour 2021, "A sliced Wasserstein loss for neural texture
+///                    synthesis"; of patches: Elnekave, Weiss 2022). It needs no network.
+///   sliced_features  the same distance between the values of the matched layers' feature maps.
+///   spectrum, autocorrelation, variation: see picture_terms.h.
+/// In a trace, terms of layers have the layer's name too: gram_relu1_1.
+struct NeuralParams {
+  static constexpr std::string_view kind = "neural";
+  static constexpr std::string_view summary =
+      "statistics of random filters or of a network (Gatys et al. 2015; Heitz et al. 2021)";
+
+  Preset preset = Preset::balanced;
+
+  double sliced_weight = 1;
+  std::vector<int> patch_sizes{7, 5};
+  int directions = 32;
+  double gram_weight = 0;
+  double sliced_features_weight = 0;
+  double spectrum_weight = 0.05;
+  double autocorrelation_weight = 0;
+  double variation_weight = 0;
+
+  std::filesystem::path network = "multiscale";
+  std::filesystem::path weights;
+  RandomWeights random_weights = RandomWeights::he_normal;
+  int weights_seed = 1;
+  bool rescale = true;
+  Padding padding = Padding::circular;
+  Padding exemplar_padding = Padding::reflect;
+  Pooling pooling = Pooling::as_described;
+  std::vector<std::string> layers;
+  std::vector<double> layer_weights;
+  bool normalise = true;
+  bool centre = true;
+  bool standardise = true;
+  std::vector<int> shifts;
+  double whitening = 0.4;
+
+  std::vector<Optimizer> optimizer{Optimizer::adam};
+  std::vector<int> iterations{80, 160, 300};
+  double learning_rate = 0.08;
+  int history = 20;
+  double stop_loss = 0;
+  double stop_seconds = std::numeric_limits<double>::infinity();
+
+  int levels = 0;
+  int coarsest_side = 24;
+  double level_factor = 0.7;
+  double copy_limit = 0.15;
+  std::filesystem::path start;
+  double noise = 1;
+  bool match_histogram = false;
+
+  static constexpr auto fields() {
+    using P = NeuralParams;
+    constexpr Range weight{0, 1e9};
+    return std::tuple{
+        Field{"preset", &P::preset, "settings that all other keys start from"},
+        Field{"sliced_weight", &P::sliced_weight,
+              "weight of the sliced Wasserstein distance of patches", "", weight},
+        Field{"patch_sizes",
+              &P::patch_sizes,
+              "sides of these patches; of several, steps of adam take turns",
+              "pixels of the level",
+              {1, 64}},
+        Field{"directions",
+              &P::directions,
+              "random directions of each step along which patches or features are compared",
+              "",
+              {1, 4096}},
+        Field{"gram_weight", &P::gram_weight, "weight of the Gram matrices of a network's layers",
+              "", weight},
+        Field{"sliced_features_weight", &P::sliced_features_weight,
+              "weight of the sliced Wasserstein distance of a network's layers", "", weight},
+        Field{"spectrum_weight", &P::spectrum_weight, "weight of the Fourier spectrum's modulus",
+              "", weight},
+        Field{"autocorrelation_weight", &P::autocorrelation_weight,
+              "weight of the autocorrelation up to a quarter of the exemplar", "", weight},
+        Field{"variation_weight", &P::variation_weight, "weight of the total variation", "",
+              weight},
+        Field{"network", &P::network, "network description: a name in models/, or a .toml file"},
+        Field{"weights", &P::weights, "trained weights, a .safetensors file; empty: random"},
+        Field{"random_weights", &P::random_weights, "distribution of random weights"},
+        Field{"weights_seed", &P::weights_seed, "seed of random weights", "", {0, 2147483647}},
+        Field{"rescale", &P::rescale,
+              "scale each filter so that its mean activation on the exemplar is 1"},
+        Field{"padding", &P::padding, "what a convolution sees beyond an edge that does not tile"},
+        Field{"exemplar_padding", &P::exemplar_padding,
+              "what a convolution sees beyond the edges of the exemplar"},
+        Field{"pooling", &P::pooling, "how pooling layers pool"},
+        Field{"layers", &P::layers,
+              "layers whose statistics are matched; empty: the network's own"},
+        Field{"layer_weights", &P::layer_weights, "weight w of each layer; empty: 1 each", "", {0}},
+        Field{"normalise", &P::normalise,
+              "divide each layer's error by its value for the exemplar against nothing"},
+        Field{"centre", &P::centre,
+              "subtract each feature map's mean on the exemplar, and match means as a statistic"},
+        Field{"standardise", &P::standardise,
+              "divide each feature map by its standard deviation on the exemplar"},
+        Field{"shifts",
+              &P::shifts,
+              "distances at which products of maps with shifted maps are matched too",
+              "positions of the layer",
+              {1, 256}},
+        Field{"whitening",
+              &P::whitening,
+              "how much the principal components of colour are made equally strong",
+              "",
+              {0, 1}},
+        Field{"optimizer", &P::optimizer,
+              "how the image is changed; of a list, the first is for the finest level, the last "
+              "also for all coarser ones"},
+        Field{"iterations",
+              &P::iterations,
+              "steps of the optimiser on each level; a list is read as that of optimizer",
+              "",
+              {0, 1e6}},
+        Field{"learning_rate",
+              &P::learning_rate,
+              "first step of Adam on a level, relative to the exemplar's colours; it falls to a "
+              "tenth",
+              "",
+              {1e-6, 10}},
+        Field{"history", &P::history, "steps that L-BFGS remembers", "steps", {1, 1000}},
+        Field{"stop_loss",
+              &P::stop_loss,
+              "stop a level when the loss is below this part of its first one",
+              "",
+              {0, 1}},
+        Field{"stop_seconds",
+              &P::stop_seconds,
+              "stop after this time",
+              "seconds",
+              {0, std::numeric_limits<double>::infinity()}},
+        Field{"levels",
+              &P::levels,
+              "levels of the image pyramid, coarse to fine; 0: by coarsest_side",
+              "",
+              {0, 64}},
+        Field{"coarsest_side",
+              &P::coarsest_side,
+              "with levels = 0: the least shorter side of the exemplar on a level",
+              "pixels",
+              {4, 4096}},
+        Field{"level_factor",
+              &P::level_factor,
+              "size of a level relative to the next finer one",
+              "",
+              {0.25, 0.95}},
+        Field{
+            "copy_limit",
+            &P::copy_limit,
+            "with levels = 0: a coarsest level of a result as large as the exemplar is thrown away "
+            "when it correlates with it by so much more than a shifted exemplar does; 2: never",
+            "",
+            {0, 2}},
+        Field{"start", &P::start, "image to start from; empty: noise"},
+        Field{"noise",
+              &P::noise,
+              "standard deviation of the noise to start from, relative to the exemplar's colours",
+              "",
+              {1e-4, 10}},
+        Field{"match_histogram", &P::match_histogram,
+              "at the end, give each channel the exemplar's histogram"},
+    };
+  }
+};
+
+/// The settings of that preset.
+NeuralParams with_preset(Preset preset);
+
+}  // namespace gramloom
