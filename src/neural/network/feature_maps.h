@@ -2,6 +2,7 @@
 
 #include <ATen/ATen.h>
 
+#include "core/image.h"
 #include "neural/params.h"
 
 namespace gramloom::neural {
