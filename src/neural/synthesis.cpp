@@ -251,7 +251,7 @@ class Synthesis {
 Texture synthesise(const NeuralParams& params, const Image& exemplar, const Target& target,
                    Random random, const Control& control) {
   check_settings(params);
-  const at::NoGradGuard no_gradients;
+  const c10::NoGradGuard no_gradients;
   at::set_num_threads(thread_count());
   Synthesis synthesis(params, exemplar, target, random, control);
   Texture texture;

@@ -24,7 +24,7 @@ void use_all_threads() { at::set_num_threads(thread_count()); }
 
 void evaluation(benchmark::State& state, const char* name) {
   use_all_threads();
-  const at::NoGradGuard no_gradients;
+  const c10::NoGradGuard no_gradients;
   NeuralParams params = with_preset(Preset::gatys);
   params.network = name;
   auto description = read_network(find_network(params.network));
@@ -42,7 +42,7 @@ void evaluation(benchmark::State& state, const char* name) {
 // A step of the preset `balanced`: patches along random directions.
 void sliced(benchmark::State& state) {
   use_all_threads();
-  const at::NoGradGuard no_gradients;
+  const c10::NoGradGuard no_gradients;
   const Size size{static_cast<int>(state.range(0)), static_cast<int>(state.range(0))};
   const at::Tensor exemplar = noise(3, state.range(0)), picture = noise(3, state.range(0));
   const Edges edges;
@@ -55,7 +55,7 @@ void sliced(benchmark::State& state) {
 
 void gram(benchmark::State& state) {
   use_all_threads();
-  const at::NoGradGuard no_gradients;
+  const c10::NoGradGuard no_gradients;
   const FeatureMaps maps = to_maps(noise(state.range(0), state.range(1)));
   for (auto _ : state) benchmark::DoNotOptimize(moments(maps).gram);
 }
@@ -63,7 +63,7 @@ void gram(benchmark::State& state) {
 // A sum of squares costs next to nothing: what is left is the optimiser.
 void lbfgs(benchmark::State& state) {
   use_all_threads();
-  const at::NoGradGuard no_gradients;
+  const c10::NoGradGuard no_gradients;
   const at::Tensor scale = noise(3, state.range(0)).abs().add_(0.1);
   const Objective bowl = [&](const at::Tensor& x, at::Tensor& gradient) {
     at::mul_out(gradient, x, scale);

@@ -6,7 +6,7 @@ namespace gramloom::neural {
 
 Loss::Loss(const NeuralParams& params, const MatchedNetwork* network, const at::Tensor& exemplar,
            Edges exemplar_edges, const Target& target, Edges edges, Random random) {
-  const at::NoGradGuard no_gradients;
+  const c10::NoGradGuard no_gradients;
   if (needs_network(params))
     network_terms_.emplace(params, *network, exemplar, exemplar_edges, edges, random.stream(0));
   const auto add = [&](double weight, auto&& make) {

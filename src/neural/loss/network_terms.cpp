@@ -61,7 +61,7 @@ NetworkTerms::Statistics NetworkTerms::statistics(const PicturePart& part, Edges
 
 NetworkTerms::Statistics NetworkTerms::total(const PictureParts& parts, Edges edges,
                                              std::uint64_t step, bool with_moments) const {
-  const at::NoGradGuard no_gradients;
+  const c10::NoGradGuard no_gradients;
   Statistics sum;
   std::vector<std::vector<at::Tensor>> projections;  // of each part
   for (std::int64_t i = 0; i < parts.count(); ++i) {
@@ -122,7 +122,7 @@ double NetworkTerms::sliced_term(std::size_t layer, std::size_t first, std::size
 std::vector<Term> NetworkTerms::add(const at::Tensor& picture, std::uint64_t step,
                                     at::Tensor& gradient) {
   if (sliced_weight_ > 0 && step != step_) look_at_exemplar(step, false);
-  const at::AutoGradMode gradients(true);
+  const c10::AutoGradMode gradients(true);
   const PictureParts parts(network_.network, wanted_, picture, edges_, options_.shifts,
                            positions_in_band_);
   // First the statistics of all parts, then the gradient of each. A single part is kept between.

@@ -85,7 +85,7 @@ at::Tensor project_patches(const at::Tensor& planes, const at::Tensor& filters, 
     const scalar_t* source = picture.data_ptr<scalar_t>();
     const std::int64_t plane = picture.stride(0), row = picture.stride(1);
     parallel_for(l.stripes, 1, [&](std::int64_t begin, std::int64_t end) {
-      const at::NoGradGuard no_gradients;
+      const c10::NoGradGuard no_gradients;
       for (std::int64_t s = begin; s < end; ++s)
         l.for_each_part(s, [&](std::int64_t first, std::int64_t rows) {
           at::Tensor matrix = at::empty({l.taps(), rows * l.width}, planes.options());
@@ -114,7 +114,7 @@ void spread_patches(const at::Tensor& gradient, const at::Tensor& filters, Tile 
     // Stripes overlap by less than one stripe: first the even ones, then the odd ones.
     for (std::int64_t parity = 0; parity < 2; ++parity)
       parallel_for((l.stripes + 1 - parity) / 2, 1, [&](std::int64_t begin, std::int64_t end) {
-        const at::NoGradGuard no_gradients;
+        const c10::NoGradGuard no_gradients;
         for (std::int64_t i = begin; i < end; ++i)
           l.for_each_part(2 * i + parity, [&](std::int64_t first, std::int64_t rows) {
             const at::Tensor matrix =

@@ -14,7 +14,7 @@ PictureParts::PictureParts(const Network& network, const std::vector<std::size_t
       edges_(edges),
       shifts_(shifts),
       picture_(picture.detach()) {
-  if (at::GradMode::is_enabled()) picture_.requires_grad_(true);
+  if (c10::GradMode::is_enabled()) picture_.requires_grad_(true);
   views_ = network.views(picture_, edges);
   for (const auto& view : views_) sizes_.push_back(network.sizes(size_of(view), edges));
   const std::int64_t positions = picture.size(1) * picture.size(2);

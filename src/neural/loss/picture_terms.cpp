@@ -19,7 +19,7 @@ constexpr std::int64_t values_transformed_at_once = 1 << 20;
 // f(picture) is a scalar; adds weight times its gradient and returns it.
 template <class F>
 double add_gradient(const at::Tensor& picture, double weight, at::Tensor& gradient, F&& f) {
-  const at::AutoGradMode gradients(true);
+  const c10::AutoGradMode gradients(true);
   const at::Tensor x = picture.detach().requires_grad_(true);
   const at::Tensor value = f(x);
   gradient.add_(torch::autograd::grad({value}, {x})[0], weight);

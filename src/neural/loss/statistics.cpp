@@ -177,7 +177,7 @@ Moments moments(const Scales& scales, Tile tile, const std::vector<int>& shifts)
 }
 
 GramTarget::GramTarget(const Moments& exemplar, const GramOptions& options) : options_(options) {
-  const at::NoGradGuard no_gradients;
+  const c10::NoGradGuard no_gradients;
   const auto channels = static_cast<double>(exemplar.mean.size(0));
   mean_ = options.centre ? exemplar.mean.clone() : at::zeros_like(exemplar.mean);
   inverse_deviation_ = at::ones_like(mean_);

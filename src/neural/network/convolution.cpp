@@ -5,9 +5,9 @@
 
 #include <map>
 #include <mutex>
-#include <oneapi/dnnl/dnnl.hpp>
 #include <tuple>
 
+#include "neural/network/onednn.h"
 #include "neural/network/plane_gradient.h"
 
 namespace gramloom::neural {
@@ -95,24 +95,19 @@ struct ConvolutionState : torch::CustomClassHolder {
     dnnl::primitive_attr after;
     if (shape.relu) {
       dnnl::post_ops operations;
-      operations.append_eltwise(1.0f, dnnl::algorithm::eltwise_relu, 0.0f, 0.0f);
+      append_relu(operations);
       after.set_post_ops(operations);
     }
-    const dnnl::convolution_forward::primitive_desc forward(
-        {dnnl::prop_kind::forward_training, algorithm, plan.input, any_weights, any_bias,
-         plan.output, stride, dilate, zeros, zeros},
-        after, engine());
+    ConvolutionShape described{plan.input, any_weights, any_bias, plan.output,
+                               stride,     dilate,      zeros};
+    const auto forward = describe_forward(engine(), algorithm, described, after);
     plan.forward = dnnl::convolution_forward(forward);
     plan.forward_weights = arranged(forward.weights_desc());
     if (shape.planes) return plan;  // whose gradient is plane_gradient()
 
-    const dnnl::convolution_forward::primitive_desc hint(
-        {dnnl::prop_kind::forward_training, algorithm, plan.input, any_weights, plan.output, stride,
-         dilate, zeros, zeros},
-        engine());
-    const dnnl::convolution_backward_data::primitive_desc backward(
-        {algorithm, plan.input, any_weights, plan.output, stride, dilate, zeros, zeros}, engine(),
-        hint);
+    described.bias = memory::desc();
+    const auto hint = describe_forward(engine(), algorithm, described, {});
+    const auto backward = describe_backward(engine(), algorithm, described, hint);
     plan.backward = dnnl::convolution_backward_data(backward);
     plan.backward_weights = arranged(backward.weights_desc());
     return plan;

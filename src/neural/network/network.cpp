@@ -249,7 +249,7 @@ Network Network::rescaled(const NetworkDescription& description,
                           const std::vector<FilterShape>& shapes,
                           std::vector<FilterWeights> weights, Pooling pooling,
                           const at::Tensor& picture, Edges edges) {
-  const at::NoGradGuard no_gradients;
+  const c10::NoGradGuard no_gradients;
   const Network network(description, shapes, weights, pooling);
   std::vector<Band> bands;
   std::vector<std::vector<Size>> sizes;

@@ -48,7 +48,7 @@ at::Tensor plane_gradient(const at::Tensor& upstream, const at::Tensor& weights,
   const std::int64_t stripes = (height + stripe - 1) / stripe;
   std::vector<at::Tensor> parts(static_cast<std::size_t>(stripes));
   parallel_for(stripes, 1, [&](std::int64_t begin, std::int64_t end) {
-    const at::NoGradGuard no_gradients;
+    const c10::NoGradGuard no_gradients;
     for (std::int64_t s = begin; s < end; ++s) {
       const std::int64_t last = std::min(height, (s + 1) * stripe);
       at::Tensor part =
