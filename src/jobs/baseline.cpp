@@ -4,8 +4,9 @@
 
 #include "io/image_file.h"
 #include "io/text_file.h"
-#include "jobs/job_files.h"
+#include "jobs/plan.h"
 #include "jobs/run_file.h"
+#include "runs/job_files.h"
 
 namespace gramloom {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "jobs/record.h"
-#include "jobs/score_sheet.h"
+#include "runs/record.h"
+#include "runs/score_sheet.h"
 
 namespace gramloom {
 

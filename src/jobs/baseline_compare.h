@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "jobs/baseline.h"
-#include "jobs/baseline_limits.h"
+#include "runs/baseline_limits.h"
 
 namespace gramloom {
 

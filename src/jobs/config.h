@@ -9,8 +9,8 @@
 #include "core/image.h"
 #include "io/field_values.h"
 #include "io/image_file.h"
-#include "jobs/baseline_limits.h"
 #include "jobs/methods.h"
+#include "runs/baseline_limits.h"
 
 namespace gramloom {
 

@@ -3,9 +3,9 @@
 #include <chrono>
 #include <cmath>
 
-#include "jobs/job_files.h"
 #include "jobs/memory.h"
 #include "metrics/scores.h"
+#include "runs/job_files.h"
 
 namespace gramloom {
 

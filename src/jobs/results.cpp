@@ -1,7 +1,7 @@
 #include "jobs/results.h"
 
-#include "jobs/job_files.h"
 #include "jobs/machine.h"
+#include "runs/job_files.h"
 
 namespace gramloom {
 

@@ -6,8 +6,9 @@
 #include <ctime>
 
 #include "io/text_file.h"
-#include "jobs/job_files.h"
 #include "jobs/machine.h"
+#include "metrics/scores.h"
+#include "runs/job_files.h"
 
 namespace gramloom {
 
@@ -46,6 +47,12 @@ JobState job_state(const Config& config, const PlannedJob& planned, const fs::pa
   return {planned.name,     exemplar_name(config, planned.job),
           method.name,      std::string(kind_of(method.method)),
           planned.job.seed, read_record(job_files(output, planned.name).record)};
+}
+
+std::vector<std::string> metric_names() {
+  std::vector<std::string> names;
+  for (const Metric& metric : metrics()) names.emplace_back(metric.name);
+  return names;
 }
 
 }  // namespace
@@ -113,7 +120,7 @@ void RunFile::write() const {
   content["diversity"] = diversity_to_json(diversity_);
   write_text(folder_ / "run.json",
              content.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  write_text(folder_ / "scores.csv", score_sheet(jobs_, diversity_));
+  write_text(folder_ / "scores.csv", score_sheet(jobs_, diversity_, metric_names()));
 }
 
 }  // namespace gramloom

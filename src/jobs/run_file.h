@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "jobs/config.h"
-#include "jobs/record.h"
+#include "jobs/plan.h"
 #include "jobs/runner.h"
-#include "jobs/score_sheet.h"
+#include "runs/record.h"
+#include "runs/score_sheet.h"
 
 namespace gramloom {
 

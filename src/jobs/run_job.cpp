@@ -2,10 +2,10 @@
 
 #include "core/hash.h"
 #include "io/text_file.h"
-#include "jobs/job_files.h"
 #include "jobs/memory.h"
 #include "jobs/results.h"
-#include "jobs/trace.h"
+#include "jobs/trace_log.h"
+#include "runs/job_files.h"
 
 namespace gramloom {
 

@@ -6,8 +6,8 @@
 #include "core/progress.h"
 #include "jobs/exemplar.h"
 #include "jobs/plan.h"
-#include "jobs/record.h"
 #include "jobs/runner.h"
+#include "runs/record.h"
 
 namespace gramloom {
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "jobs/folder_lock.h"
-#include "jobs/job_files.h"
 #include "jobs/job_scores.h"
 #include "jobs/results.h"
 #include "jobs/run_file.h"
 #include "neural/blas_speed.h"
+#include "runs/job_files.h"
 
 namespace gramloom {
 

@@ -1,14 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "jobs/plan.h"
+#include "runs/json.h"
 
 namespace gramloom {
-
-using Json = nlohmann::ordered_json;
 
 /// A method's kind and every parameter, defaults included; paths relative to `folder`.
 Json method_to_json(const Method& method, const std::filesystem::path& folder);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "report/run_folder.h"
+#include "runs/run_folder.h"
 
 namespace gramloom {
 

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "cli/workspace.h"
-#include "jobs/trace.h"
+#include "jobs/trace_log.h"
 
 namespace gramloom {
 namespace {

@@ -12,7 +12,7 @@
 #include "core/random.h"
 #include "io/image_file.h"
 #include "io/text_file.h"
-#include "jobs/record.h"
+#include "runs/record.h"
 
 namespace gramloom {
 

@@ -25,8 +25,10 @@ const std::map<std::string, std::set<std::string>> may_include{
     {"surface", {"core", "signal"}},
     {"neural", {"core", "signal", "io"}},
     {"metrics", {"core", "signal", "classic"}},
-    {"report", {"core", "signal", "io", "metrics"}},
-    {"jobs", {"core", "signal", "io", "procedural", "classic", "neural", "surface", "metrics"}},
+    {"runs", {"core", "io"}},
+    {"report", {"core", "signal", "io", "metrics", "runs"}},
+    {"jobs",
+     {"core", "signal", "io", "procedural", "classic", "neural", "surface", "metrics", "runs"}},
 };
 
 TEST(Layers, EachFolderIncludesOnlyWhatLiesBelowIt) {

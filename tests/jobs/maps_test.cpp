@@ -1,6 +1,7 @@
 // Exemplars with maps: read with the picture, made with it, written beside it.
 #include <gtest/gtest.h>
 
+#include "jobs/plan.h"
 #include "jobs/run_folder.h"
 #include "metrics/scores.h"
 #include "signal/resize.h"

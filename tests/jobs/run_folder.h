@@ -9,8 +9,8 @@
 
 #include "io/image_file.h"
 #include "io/text_file.h"
-#include "jobs/record.h"
 #include "jobs/runner.h"
+#include "runs/record.h"
 
 namespace gramloom {
 

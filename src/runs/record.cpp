@@ -1,4 +1,4 @@
-#include "jobs/record.h"
+#include "runs/record.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "report/run_folder.h"
+#include "runs/run_folder.h"
 
 #include <algorithm>
 

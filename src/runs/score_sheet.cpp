@@ -1,6 +1,4 @@
-#include "jobs/score_sheet.h"
-
-#include "metrics/scores.h"
+#include "runs/score_sheet.h"
 
 namespace gramloom {
 
@@ -35,10 +33,11 @@ std::string score_cell(const JobState& job, std::string_view metric,
 }  // namespace
 
 std::string score_sheet(const std::vector<JobState>& jobs,
-                        const std::vector<SeedDiversity>& diversity) {
+                        const std::vector<SeedDiversity>& diversity,
+                        const std::vector<std::string>& metrics) {
   std::vector<std::string> header{"exemplar", "method",  "kind",          "seed",
                                   "status",   "seconds", "peak_memory_mb"};
-  for (const Metric& metric : metrics()) header.emplace_back(metric.name);
+  header.insert(header.end(), metrics.begin(), metrics.end());
   std::string sheet = line_of(header);
   for (const JobState& job : jobs) {
     std::vector<std::string> cells{cell(job.exemplar), cell(job.method), cell(job.kind),
@@ -46,8 +45,7 @@ std::string score_sheet(const std::vector<JobState>& jobs,
     if (job.record) {
       cells.push_back(fmt::format("{:.6g}", job.record->seconds));
       cells.push_back(fmt::format("{:.6g}", job.record->peak_memory_mb));
-      for (const Metric& metric : metrics())
-        cells.push_back(score_cell(job, metric.name, diversity));
+      for (const auto& metric : metrics) cells.push_back(score_cell(job, metric, diversity));
     }
     cells.resize(header.size());
     sheet += line_of(cells);

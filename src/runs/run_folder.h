@@ -1,15 +1,13 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "io/trace_file.h"
+#include "runs/json.h"
+#include "runs/trace_file.h"
 
 namespace gramloom {
-
-using Json = nlohmann::ordered_json;
 
 /// What a run left of one job. A job that was never begun, or whose record cannot be read, has a
 /// record that says so.

@@ -1,4 +1,4 @@
-#include "jobs/trace.h"
+#include "jobs/trace_log.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "io/text_file.h"
-#include "jobs/record.h"
+#include "runs/record.h"
 
 namespace gramloom {
 namespace {
@@ -23,9 +23,9 @@ Progress at_step(std::int64_t step) {
   return progress;
 }
 
-class TraceFile : public testing::Test {
+class TraceLogFile : public testing::Test {
  protected:
-  ~TraceFile() override { fs::remove(file_); }
+  ~TraceLogFile() override { fs::remove(file_); }
   const fs::path file_ = fs::temp_directory_path() / fmt::format("gramloom_trace_{}.csv", getpid());
 
   std::vector<std::int64_t> steps(const TraceLog& log) const {
@@ -35,36 +35,7 @@ class TraceFile : public testing::Test {
   }
 };
 
-TEST(Trace, NumbersComeBackAsTheyWere) {
-  const Trace trace{{"a", "b"},
-                    {{0, 1, 0.25, 1.0 / 3, {0.1, 1e-300}}, {1, 3, 0.5, 1e22, {2, 3e-7}}}};
-  EXPECT_EQ(parse_trace(to_csv(trace)), trace);
-  EXPECT_EQ(to_csv(trace).substr(0, to_csv(trace).find('\n')), "step,evaluations,seconds,loss,a,b");
-}
-
-TEST(Trace, ALineThatWasCutOffIsLeftOut) {
-  const Trace trace{{}, {{0, 1, 0.25, 0.5, {}}, {1, 3, 0.5, 0.125, {}}}};
-  const std::string csv = to_csv(trace);
-  for (std::size_t length = csv.find('\n') + 1; length < csv.size(); ++length) {
-    const Trace read = parse_trace(csv.substr(0, length));
-    ASSERT_LT(read.rows.size(), 2u);
-    if (!read.rows.empty()) {
-      EXPECT_EQ(read.rows[0], trace.rows[0]);
-    }
-  }
-}
-
-TEST(Trace, SummaryIsOfTheFirstAndLastStep) {
-  EXPECT_FALSE(summarise({}));
-  const auto summary = summarise({{}, {{0, 1, 0, 4, {}}, {9, 12, 1, 2, {}}}});
-  ASSERT_TRUE(summary);
-  EXPECT_EQ(summary->iterations, 9);
-  EXPECT_EQ(summary->evaluations, 12);
-  EXPECT_EQ(summary->first, 4);
-  EXPECT_EQ(summary->last, 2);
-}
-
-TEST_F(TraceFile, IsOnDiskAfterEachStep) {
+TEST_F(TraceLogFile, IsOnDiskAfterEachStep) {
   TraceLog log(file_, "mark");
   EXPECT_FALSE(log.continues());
   for (int step = 0; step < 3; ++step) {
@@ -74,7 +45,7 @@ TEST_F(TraceFile, IsOnDiskAfterEachStep) {
   EXPECT_EQ(log.trace().terms, (std::vector<std::string>{"pool1", "pool2"}));
 }
 
-TEST_F(TraceFile, IgnoresReportsWithoutLossAndOfTheSameStep) {
+TEST_F(TraceLogFile, IgnoresReportsWithoutLossAndOfTheSameStep) {
   TraceLog log(file_, "mark");
   Progress no_loss;
   no_loss.step = 4;
@@ -85,7 +56,7 @@ TEST_F(TraceFile, IgnoresReportsWithoutLossAndOfTheSameStep) {
   EXPECT_EQ(steps(log), (std::vector<std::int64_t>{5}));
 }
 
-TEST_F(TraceFile, GoesOnWhereTheCheckpointWas) {
+TEST_F(TraceLogFile, GoesOnWhereTheCheckpointWas) {
   double seconds = 0;
   {
     TraceLog log(file_, "mark");
@@ -104,7 +75,7 @@ TEST_F(TraceFile, GoesOnWhereTheCheckpointWas) {
   EXPECT_EQ(on_disk.rows[6].loss, at_step(6).loss);
 }
 
-TEST_F(TraceFile, OfOtherSettingsIsNotContinued) {
+TEST_F(TraceLogFile, OfOtherSettingsIsNotContinued) {
   { TraceLog(file_, "one").add(at_step(1)); }
   EXPECT_TRUE(TraceLog(file_, "one").continues());
   TraceLog other(file_, "two");
@@ -112,7 +83,7 @@ TEST_F(TraceFile, OfOtherSettingsIsNotContinued) {
   EXPECT_TRUE(other.trace().rows.empty());
 }
 
-TEST_F(TraceFile, RestartForgets) {
+TEST_F(TraceLogFile, RestartForgets) {
   { TraceLog(file_, "one").add(at_step(1)); }
   TraceLog log(file_, "one");
   log.restart();

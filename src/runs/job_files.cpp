@@ -1,4 +1,4 @@
-#include "jobs/job_files.h"
+#include "runs/job_files.h"
 
 #include <algorithm>
 

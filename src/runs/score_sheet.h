@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/record.h"
+#include "runs/record.h"
 
 namespace gramloom {
 
@@ -28,9 +28,10 @@ struct JobState {
   std::string_view status() const { return record ? to_word(record->status) : "waiting"; }
 };
 
-/// The table scores.csv: a line for each job, with a column for each of metrics(). A cell is empty
-/// where there is no such number.
+/// The table scores.csv: a line for each job, with a column for each of `metrics` by their names. A
+/// cell is empty where there is no such number.
 std::string score_sheet(const std::vector<JobState>& jobs,
-                        const std::vector<SeedDiversity>& diversity);
+                        const std::vector<SeedDiversity>& diversity,
+                        const std::vector<std::string>& metrics);
 
 }  // namespace gramloom

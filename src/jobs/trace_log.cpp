@@ -1,4 +1,4 @@
-#include "jobs/trace.h"
+#include "jobs/trace_log.h"
 
 #include <cmath>
 #include <fstream>

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/progress.h"
-#include "io/trace_file.h"
+#include "runs/trace_file.h"
 
 namespace gramloom {
 

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "core/fields.h"
-#include "jobs/settings.h"
-#include "jobs/trace.h"
+#include "core/image.h"
+#include "runs/json.h"
+#include "runs/trace_file.h"
 
 namespace gramloom {
 

@@ -1,4 +1,4 @@
-#include "io/trace_file.h"
+#include "runs/trace_file.h"
 
 #include <fmt/format.h>
 
