@@ -13,6 +13,7 @@
 #include "core/random.h"
 #include "metrics/scores.h"
 #include "procedural/texture.h"
+#include "signal/grain.h"
 
 namespace gramloom {
 
@@ -48,14 +49,6 @@ inline Image optimised(const Image& exemplar) {
       .image;
 }
 
-/// Normal numbers of mean 0.5.
-inline Image grain(Size size, int channels, std::uint64_t seed = 1, float deviation = 0.1f) {
-  Random random(seed);
-  Image image(size, channels);
-  for (float& value : image.pixels) value = 0.5f + deviation * random.normal();
-  return image;
-}
-
 inline Image noisy(Image image, float deviation) {
   Random random(9);
   for (float& value : image.pixels) value += deviation * random.normal();
@@ -66,16 +59,6 @@ inline Image blurred(const Image& image, double deviation) {
   Image result = image;
   cv::Mat pixels(image.height, image.width, CV_32FC(image.channels), result.pixels.data());
   cv::GaussianBlur(pixels.clone(), pixels, {}, deviation, deviation, cv::BORDER_REFLECT);
-  return result;
-}
-
-/// The image around its torus from (left, top) on.
-inline Image window(const Image& image, int left, int top, Size size) {
-  Image result(size, image.channels);
-  for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < size.width; ++x)
-      std::copy_n(image.at((left + x) % image.width, (top + y) % image.height), image.channels,
-                  result.at(x, y));
   return result;
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "metrics/pictures.h"
+#include "signal/grain.h"
 
 namespace gramloom {
 namespace {
@@ -78,16 +78,6 @@ TEST(Correlation, RepetitionOfATile) {
   EXPECT_GT(repetition(shift_correlation(tiled, tiled), 32), 0.999);
   const Image fresh = grain({96, 96}, 1);
   EXPECT_LT(repetition(shift_correlation(fresh, fresh), 32), 0.15);
-}
-
-TEST(Diversity, OfEqualShiftedAndUnlikeImages) {
-  const Image a = pebbles(1), b = pebbles(2), c = pebbles(3);
-  EXPECT_NEAR(diversity(std::vector{a, a}), 0, 1e-5);
-  EXPECT_LT(diversity(std::vector{a, window(a, 40, 70, a.size())}), 0.05);
-  EXPECT_GT(diversity(std::vector{a, b, c}), 0.4);
-  EXPECT_LT(diversity(std::vector{a, a, b}), diversity(std::vector{a, b, c}));
-  EXPECT_THROW(diversity(std::vector{a}), Error);
-  EXPECT_THROW(diversity(std::vector{a, Image(8, 8, 1)}), Error);
 }
 
 }  // namespace
