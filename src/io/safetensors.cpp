@@ -38,6 +38,7 @@ struct Entry {
 
 struct Header {
   std::vector<Entry> entries;     // in the order of their data
+  Json metadata;                  // null: none
   std::uint64_t data_offset = 0;  // of the file
 };
 
@@ -136,10 +137,13 @@ Header read_header(std::ifstream& file, std::uint64_t file_bytes) {
   if (!file.read(text.data(), static_cast<std::streamsize>(length)))
     throw Error("the header cannot be read");
 
-  Header header{.entries = {}, .data_offset = length_bytes + length};
+  Header header{.entries = {}, .metadata = {}, .data_offset = length_bytes + length};
   const Json json = parse_json(text);
   for (const auto& [name, value] : json.items())
-    if (name != metadata_key) header.entries.push_back(parse_entry(name, value));
+    if (name == metadata_key)
+      header.metadata = value;
+    else
+      header.entries.push_back(parse_entry(name, value));
   std::sort(header.entries.begin(), header.entries.end(), [](const Entry& a, const Entry& b) {
     return std::tie(a.begin, a.end, a.name) < std::tie(b.begin, b.end, b.name);
   });
@@ -182,23 +186,43 @@ TensorData read_tensor(std::ifstream& file, const Header& header, const Entry& e
   return {entry.shape, to_floats(entry, bytes)};
 }
 
-}  // namespace
-
-std::map<std::string, TensorData> read_tensors(const fs::path& path, const WantsTensor& wants) {
+// f(file, header), with the path in front of errors.
+template <class F>
+auto read_file(const fs::path& path, F&& f) {
   std::error_code status;
   const std::uint64_t file_bytes = fs::file_size(path, status);
   if (status) throw Error("{}: cannot read: {}", path.string(), status.message());
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error("{}: cannot read: {}", path.string(), std::strerror(errno));
   try {
-    std::map<std::string, TensorData> tensors;
-    const Header header = read_header(file, file_bytes);
-    for (const Entry& entry : header.entries)
-      if (!wants || wants(entry.name)) tensors[entry.name] = read_tensor(file, header, entry);
-    return tensors;
+    return f(file, read_header(file, file_bytes));
   } catch (const Error& error) {
     throw Error("{}: {}", path.string(), error.what());
   }
+}
+
+}  // namespace
+
+std::map<std::string, TensorData> read_tensors(const fs::path& path, const WantsTensor& wants) {
+  return read_file(path, [&](std::ifstream& file, const Header& header) {
+    std::map<std::string, TensorData> tensors;
+    for (const Entry& entry : header.entries)
+      if (!wants || wants(entry.name)) tensors[entry.name] = read_tensor(file, header, entry);
+    return tensors;
+  });
+}
+
+std::map<std::string, std::string> read_metadata(const fs::path& path) {
+  return read_file(path, [](std::ifstream&, const Header& header) {
+    std::map<std::string, std::string> texts;
+    if (header.metadata.is_null()) return texts;
+    if (!header.metadata.is_object()) throw Error("the metadata are not texts by name");
+    for (const auto& [name, value] : header.metadata.items()) {
+      if (!value.is_string()) throw Error("the metadata's '{}' is not a text", name);
+      texts[name] = value.get<std::string>();
+    }
+    return texts;
+  });
 }
 
 void write_tensors(const fs::path& path, const std::map<std::string, TensorData>& tensors,

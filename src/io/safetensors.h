@@ -29,6 +29,10 @@ using WantsTensor = std::function<bool(const std::string& name)>;
 std::map<std::string, TensorData> read_tensors(const std::filesystem::path& path,
                                                const WantsTensor& wants = {});
 
+/// The texts of the header's metadata. Throws Error as read_tensors() does, and for metadata that
+/// are not texts.
+std::map<std::string, std::string> read_metadata(const std::filesystem::path& path);
+
 /// Writes every tensor as F32, complete or not at all; `metadata` are texts for the header. The
 /// same tensors give the same bytes. Throws Error with the path, also when values don't match a
 /// shape.

@@ -1,8 +1,6 @@
 #include "neural/checkpoint.h"
 
-#include <fmt/format.h>
-
-#include <bit>
+#include <charconv>
 
 #include "core/error.h"
 #include "io/safetensors.h"
@@ -11,8 +9,8 @@ namespace gramloom::neural {
 
 namespace {
 
-// All of a checkpoint lies in one safetensors file: tensors (pictures, vectors) as they are, and
-// each double as its bits in four parts of 16, numbers that floats hold exactly.
+const std::string optimiser_prefix = "optimiser.";
+
 TensorData to_data(const at::Tensor& tensor) {
   const at::Tensor values = tensor.contiguous();
   const float* first = values.data_ptr<float>();
@@ -23,65 +21,62 @@ at::Tensor to_tensor(const TensorData& data) {
   return at::from_blob(const_cast<float*>(data.values.data()), data.shape, at::kFloat).clone();
 }
 
-TensorData to_data(double value) {
-  const auto bits = std::bit_cast<std::uint64_t>(value);
-  TensorData data{{4}, {}};
-  for (int part = 0; part < 4; ++part)
-    data.values.push_back(static_cast<float>(bits >> 16 * part & 0xffff));
-  return data;
+// The shortest text that is this very number.
+template <class T>
+std::string to_text(T number) {
+  return fmt::format("{}", number);
 }
 
-double to_double(const TensorData& data) {
-  std::uint64_t bits = 0;
-  for (std::size_t part = 0; part < 4; ++part)
-    bits |= static_cast<std::uint64_t>(data.values.at(part)) << 16 * part;
-  return std::bit_cast<double>(bits);
+template <class T>
+T to_number(const std::string& text) {
+  T number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw Error("'{}' is not a number", text);
+  return number;
 }
 
-// The fingerprint is kept as the name of an empty tensor: read_tensors gives names and values.
-const std::string fingerprint_prefix = "fingerprint ";
+// Calls f(name without the prefix, value) for what an optimiser has kept.
+template <class Map, class F>
+void for_each_kept(const Map& map, F&& f) {
+  for (const auto& [name, value] : map)
+    if (name.starts_with(optimiser_prefix)) f(name.substr(optimiser_prefix.size()), value);
+}
 
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
-  std::map<std::string, TensorData> tensors;
-  tensors[fingerprint_prefix + checkpoint.fingerprint] = {{0}, {}};
-  tensors["picture"] = to_data(checkpoint.picture);
-  tensors["level"] = to_data(checkpoint.level);
-  tensors["first_level"] = to_data(checkpoint.first_level);
-  tensors["iteration"] = to_data(static_cast<double>(checkpoint.iteration));
-  tensors["evaluations"] = to_data(static_cast<double>(checkpoint.evaluations));
-  tensors["seconds"] = to_data(checkpoint.seconds);
-  tensors["first_loss"] = to_data(checkpoint.first_loss);
-  for (const auto& [name, tensor] : checkpoint.optimiser.tensors)
-    tensors["optimiser." + name] = to_data(tensor);
+  std::map<std::string, std::string> numbers{{"fingerprint", checkpoint.fingerprint}};
+  for_each_field<Checkpoint>([&](const auto& field) {
+    numbers[std::string(field.name)] = to_text(checkpoint.*field.member);
+  });
   for (const auto& [name, number] : checkpoint.optimiser.numbers)
-    tensors["optimiser_number." + name] = to_data(number);
-  write_tensors(file, tensors);
+    numbers[optimiser_prefix + name] = to_text(number);
+  std::map<std::string, TensorData> tensors{{"picture", to_data(checkpoint.picture)}};
+  for (const auto& [name, tensor] : checkpoint.optimiser.tensors)
+    tensors[optimiser_prefix + name] = to_data(tensor);
+  write_tensors(file, tensors, numbers);
 }
 
 std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& file,
                                           const std::string& fingerprint) try {
   if (file.empty() || !std::filesystem::exists(file)) return {};
+  const auto numbers = read_metadata(file);
+  Checkpoint checkpoint;
+  checkpoint.fingerprint = numbers.at("fingerprint");
+  if (checkpoint.fingerprint != fingerprint) return {};
+  for_each_field<Checkpoint>([&](const auto& field) {
+    using T = typename std::decay_t<decltype(field)>::value_type;
+    checkpoint.*field.member = to_number<T>(numbers.at(std::string(field.name)));
+  });
+  for_each_kept(numbers, [&](const std::string& name, const std::string& text) {
+    checkpoint.optimiser.numbers[name] = to_number<double>(text);
+  });
   const auto tensors = read_tensors(file);
-  if (!tensors.contains(fingerprint_prefix + fingerprint)) return {};
-  const auto number = [&](const char* name) { return to_double(tensors.at(name)); };
-  Checkpoint checkpoint{fingerprint,
-                        static_cast<int>(number("level")),
-                        static_cast<int>(number("first_level")),
-                        static_cast<std::int64_t>(number("iteration")),
-                        static_cast<std::int64_t>(number("evaluations")),
-                        number("seconds"),
-                        number("first_loss"),
-                        to_tensor(tensors.at("picture")),
-                        {}};
-  const std::string tensor_prefix = "optimiser.", number_prefix = "optimiser_number.";
-  for (const auto& [name, data] : tensors) {
-    if (name.starts_with(tensor_prefix))
-      checkpoint.optimiser.tensors[name.substr(tensor_prefix.size())] = to_tensor(data);
-    if (name.starts_with(number_prefix))
-      checkpoint.optimiser.numbers[name.substr(number_prefix.size())] = to_double(data);
-  }
+  checkpoint.picture = to_tensor(tensors.at("picture"));
+  for_each_kept(tensors, [&](const std::string& name, const TensorData& data) {
+    checkpoint.optimiser.tensors[name] = to_tensor(data);
+  });
   return checkpoint;
 } catch (const Error&) {
   return {};

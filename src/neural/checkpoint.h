@@ -4,21 +4,34 @@
 #include <optional>
 #include <string>
 
+#include "core/fields.h"
 #include "neural/optimise/optimiser.h"
 
 namespace gramloom::neural {
 
 /// How far an unfinished synthesis is: enough to go on to the same bytes as if it had not stopped.
+/// It lies in one safetensors file: pictures as tensors, numbers as texts of its metadata, exact.
 struct Checkpoint {
-  std::string fingerprint;     // of everything that the result depends on
-  int level = 0;               // of the pyramid, 0 is the finest
-  int first_level = 0;         // on which the present picture began as noise
-  std::int64_t iteration = 0;  // done on this level
+  std::string fingerprint;  // of everything that the result depends on
+  int level = 0;
+  int first_level = 0;
+  std::int64_t iteration = 0;
   std::int64_t evaluations = 0;
   double seconds = 0;
-  double first_loss = 0;  // of this level
-  at::Tensor picture;     // (channels, height, width)
+  double first_loss = 0;
+  at::Tensor picture;  // (channels, height, width)
   SavedState optimiser;
+
+  static constexpr auto fields() {
+    using C = Checkpoint;
+    return std::tuple{
+        Field{"level", &C::level, "of the pyramid, 0 is the finest"},
+        Field{"first_level", &C::first_level, "on which the present picture began as noise"},
+        Field{"iteration", &C::iteration, "steps done on this level"},
+        Field{"evaluations", &C::evaluations, "of the loss, on all levels"},
+        Field{"seconds", &C::seconds, "since the start", "seconds"},
+        Field{"first_loss", &C::first_loss, "of this level"}};
+  }
 };
 
 /// Complete or not at all. Throws Error.

@@ -55,12 +55,14 @@ TEST_F(Safetensors, RoundTrip) {
                         {"ünïcode \"name\"", {{1}, {6}}}};
   write_tensors(path("a"), tensors, {{"source", "a text"}});
   EXPECT_EQ(read_tensors(path("a")), tensors);
+  EXPECT_EQ(read_metadata(path("a")), (std::map<std::string, std::string>{{"source", "a text"}}));
   EXPECT_THAT(read_text(path("a")), HasSubstr(R"("__metadata__":{"source":"a text"})"));
 
   write_tensors(path("b"), tensors, {{"source", "a text"}});
   EXPECT_EQ(read_text(path("a")), read_text(path("b")));
   write_tensors(path("empty"), {});
   EXPECT_EQ(read_tensors(path("empty")), Tensors{});
+  EXPECT_TRUE(read_metadata(path("empty")).empty());
 }
 
 TEST_F(Safetensors, EveryFloatType) {
@@ -127,6 +129,12 @@ TEST_F(Safetensors, BrokenHeaders) {
   const std::string one = entry("F32", "[1]", "[0,4]");
   EXPECT_THAT(error("{\"a\":" + one + ",\"a\":" + one + "}", 4),
               HasSubstr("two tensors are called 'a'"));
+  const auto metadata_error = [&](const std::string& metadata) {
+    const auto name = file("{\"__metadata__\":" + metadata + "}", "");
+    return error_of([&] { read_metadata(name); });
+  };
+  EXPECT_THAT(metadata_error("7"), HasSubstr("the metadata are not texts by name"));
+  EXPECT_THAT(metadata_error("{\"a\":1}"), HasSubstr("the metadata's 'a' is not a text"));
 }
 
 TEST_F(Safetensors, BrokenShapes) {
