@@ -8,6 +8,8 @@
 #include "core/simd.h"
 #include "core/threads.h"
 #include "metrics/components.h"
+#include "signal/quantile.h"
+#include "signal/sort.h"
 
 namespace gramloom {
 
@@ -77,7 +79,7 @@ void sort_all(Projections& projections) {
   parallel_for(
       static_cast<std::int64_t>(projections.size()), 1, [&](std::int64_t begin, std::int64_t end) {
         for (auto d = static_cast<std::size_t>(begin); d < static_cast<std::size_t>(end); ++d)
-          std::sort(projections[d].begin(), projections[d].end());
+          Sorter().sort(projections[d]);
       });
 }
 
@@ -131,29 +133,13 @@ Projections colour_projections(const Image& image, double scale) {
   return result;
 }
 
-/// The value at rank `place` (from 0 to 1), each value standing for the middle of its share.
-double quantile(const std::vector<float>& sorted, double place) {
-  const double at = std::clamp(place * static_cast<double>(sorted.size()) - 0.5, 0.0,
-                               static_cast<double>(sorted.size() - 1));
-  const auto below = static_cast<std::size_t>(at);
-  const auto above = std::min(below + 1, sorted.size() - 1);
-  const double part = at - static_cast<double>(below);
-  return double{sorted[below]} * (1 - part) + double{sorted[above]} * part;
-}
-
 }  // namespace
 
 double quantile_distance(const std::vector<float>& a, const std::vector<float>& b) {
   const std::size_t count = std::min(a.size(), b.size());
+  const Quantiles of_a(a, count), of_b(b, count);
   double sum = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (a.size() == b.size()) {
-      sum += std::abs(double{a[i]} - double{b[i]});
-      continue;
-    }
-    const double place = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-    sum += std::abs(quantile(a, place) - quantile(b, place));
-  }
+  for (std::size_t i = 0; i < count; ++i) sum += std::abs(of_a(i) - of_b(i));
   return sum / static_cast<double>(count);
 }
 
