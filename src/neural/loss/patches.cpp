@@ -1,33 +1,38 @@
 #include "neural/loss/patches.h"
 
 #include <algorithm>
+#include <memory>
+#include <oneapi/dnnl/dnnl.hpp>
+#include <vector>
 
 #include "core/error.h"
 #include "core/threads.h"
-#include "io/field_values.h"
-#include "neural/network/feature_maps.h"
 
 namespace gramloom::neural {
 
 namespace {
 
 // Positions whose patches are multiplied at once, in whole rows: few enough for the cache.
-constexpr std::int64_t positions_at_once = 2048;
+constexpr std::int64_t positions_at_once = 1024;
 
 // Where patches lie in a picture that was continued across the edges where it wraps.
 struct Layout {
   std::int64_t channels, kernel, margin_y, margin_x;  // the margins lie below and to the right
   std::int64_t height, width;                         // positions
-  // What is worked on at once, and by one thread: stripes of at least a patch's height, so that
-  // those of one parity never write to the same row.
-  std::int64_t rows_at_once, stripe, stripes;
+  // Rows of positions are shared out, at least a patch's height to each share, so that shares of
+  // one parity never write to the same row of the picture. Of a share, a few rows are worked on at
+  // once.
+  std::int64_t rows_at_once, rows_of_share, shares;
   std::int64_t taps() const { return channels * kernel * kernel; }
+  std::size_t values_at_once() const {
+    return static_cast<std::size_t>(taps() * rows_at_once * width);
+  }
 
-  // Calls f(first row, rows) for the parts of stripe s.
+  // Calls f(first row, rows) for all rows of a share, a few at a time.
   template <class F>
-  void for_each_part(std::int64_t s, F&& f) const {
-    const std::int64_t end = std::min((s + 1) * stripe, height);
-    for (std::int64_t y = s * stripe; y < end; y += rows_at_once)
+  void for_a_few_rows(std::int64_t share, F&& f) const {
+    const std::int64_t end = std::min((share + 1) * rows_of_share, height);
+    for (std::int64_t y = share * rows_of_share; y < end; y += rows_at_once)
       f(y, std::min(rows_at_once, end - y));
   }
 };
@@ -44,8 +49,8 @@ Layout layout_of(const at::Tensor& planes, std::int64_t kernel, Tile wraps) {
     throw Error("a patch of {0}×{0} does not fit into a picture of {1}×{2}", kernel, planes.size(2),
                 planes.size(1));
   l.rows_at_once = std::max<std::int64_t>(1, positions_at_once / l.width);
-  l.stripe = (kernel + l.rows_at_once - 1) / l.rows_at_once * l.rows_at_once;
-  l.stripes = (l.height + l.stripe - 1) / l.stripe;
+  l.rows_of_share = (kernel + l.rows_at_once - 1) / l.rows_at_once * l.rows_at_once;
+  l.shares = (l.height + l.rows_of_share - 1) / l.rows_of_share;
   return l;
 }
 
@@ -64,7 +69,7 @@ at::Tensor continued(const at::Tensor& planes, const Layout& l) {
   return result.contiguous();
 }
 
-// Calls f(row of the picture, row of the patch matrix) for each tap of each row of the stripe.
+// Calls f(row of the picture, row of the patch matrix) for each tap of each of these rows.
 template <class F>
 void for_each_line(const Layout& l, std::int64_t first, std::int64_t rows, F&& f) {
   std::int64_t line = 0;
@@ -74,28 +79,56 @@ void for_each_line(const Layout& l, std::int64_t first, std::int64_t rows, F&& f
         for (std::int64_t y = 0; y < rows; ++y, ++line) f(c, first + y + ky, kx, line * l.width);
 }
 
+// c = a · b, or aᵀ · b; a has `inner` columns, or rows. Each row-major, `step` values from row to
+// row. oneDNN writes the products; OpenBLAS, which adds them to a c that it has filled with zeros
+// before, takes a third longer where c has few rows.
+template <class T>
+struct Matrix {
+  T* values;
+  std::int64_t step;
+};
+void multiply(char transposed, Matrix<const float> a, Matrix<const float> b, Matrix<float> c,
+              std::int64_t rows, std::int64_t columns, std::int64_t inner) {
+  dnnl::sgemm(transposed, 'N', rows, columns, inner, 1, a.values, a.step, b.values, b.step, 0,
+              c.values, c.step);
+}
+void multiply(char transposed, Matrix<const double> a, Matrix<const double> b, Matrix<double> c,
+              std::int64_t rows, std::int64_t columns, std::int64_t inner) {
+  for (std::int64_t r = 0; r < rows; ++r)
+    for (std::int64_t i = 0; i < inner; ++i) {
+      const double factor = a.values[transposed == 'T' ? i * a.step + r : r * a.step + i];
+      for (std::int64_t k = 0; k < columns; ++k) {
+        const double product = factor * b.values[i * b.step + k];
+        double& sum = c.values[r * c.step + k];
+        sum = i == 0 ? product : sum + product;
+      }
+    }
+}
+
 }  // namespace
 
 at::Tensor project_patches(const at::Tensor& planes, const at::Tensor& filters, Tile wraps) {
   const Layout l = layout_of(planes, filters.size(2), wraps);
-  const at::Tensor picture = continued(planes, l);
-  const at::Tensor weights = filters.reshape({filters.size(0), -1});
-  at::Tensor result = at::empty({filters.size(0), l.height * l.width}, planes.options());
+  const at::Tensor picture = continued(planes, l), weights = filters.contiguous();
+  const std::int64_t directions = filters.size(0), positions = l.height * l.width;
+  at::Tensor result = at::empty({directions, positions}, planes.options());
   AT_DISPATCH_FLOATING_TYPES(planes.scalar_type(), "project_patches", [&] {
     const scalar_t* source = picture.data_ptr<scalar_t>();
+    const scalar_t* filter = weights.data_ptr<scalar_t>();
+    scalar_t* target = result.data_ptr<scalar_t>();
     const std::int64_t plane = picture.stride(0), row = picture.stride(1);
-    parallel_for(l.stripes, 1, [&](std::int64_t begin, std::int64_t end) {
-      const c10::NoGradGuard no_gradients;
+    parallel_for(l.shares, 1, [&](std::int64_t begin, std::int64_t end) {
+      const auto patches = std::make_unique_for_overwrite<scalar_t[]>(l.values_at_once());
       for (std::int64_t s = begin; s < end; ++s)
-        l.for_each_part(s, [&](std::int64_t first, std::int64_t rows) {
-          at::Tensor matrix = at::empty({l.taps(), rows * l.width}, planes.options());
-          scalar_t* target = matrix.data_ptr<scalar_t>();
-          for_each_line(l, first, rows,
-                        [&](std::int64_t c, std::int64_t y, std::int64_t x, std::int64_t to) {
-                          std::copy_n(source + c * plane + y * row + x, l.width, target + to);
-                        });
-          at::Tensor part = result.narrow(1, first * l.width, rows * l.width);
-          at::mm_out(part, weights, matrix);
+        l.for_a_few_rows(s, [&](std::int64_t first, std::int64_t rows) {
+          for_each_line(
+              l, first, rows, [&](std::int64_t c, std::int64_t y, std::int64_t x, std::int64_t to) {
+                std::copy_n(source + c * plane + y * row + x, l.width, patches.get() + to);
+              });
+          multiply('N', Matrix<const scalar_t>{filter, l.taps()},
+                   Matrix<const scalar_t>{patches.get(), rows * l.width},
+                   Matrix<scalar_t>{target + first * l.width, positions}, directions,
+                   rows * l.width, l.taps());
         });
     });
   });
@@ -105,25 +138,29 @@ at::Tensor project_patches(const at::Tensor& planes, const at::Tensor& filters, 
 void spread_patches(const at::Tensor& gradient, const at::Tensor& filters, Tile wraps,
                     at::Tensor& planes) {
   const Layout l = layout_of(planes, filters.size(2), wraps);
-  const at::Tensor by_tap = filters.reshape({filters.size(0), -1}).t();
+  const at::Tensor weights = filters.contiguous(), slopes = gradient.contiguous();
   at::Tensor sum = at::zeros({l.channels, planes.size(1) + l.margin_y, planes.size(2) + l.margin_x},
                              planes.options());
   AT_DISPATCH_FLOATING_TYPES(planes.scalar_type(), "spread_patches", [&] {
+    const scalar_t* source = slopes.data_ptr<scalar_t>();
+    const scalar_t* filter = weights.data_ptr<scalar_t>();
     scalar_t* target = sum.data_ptr<scalar_t>();
     const std::int64_t plane = sum.stride(0), row = sum.stride(1);
-    // Stripes overlap by less than one stripe: first the even ones, then the odd ones.
+    // Shares overlap by less than one share: first the even ones, then the odd ones.
     for (std::int64_t parity = 0; parity < 2; ++parity)
-      parallel_for((l.stripes + 1 - parity) / 2, 1, [&](std::int64_t begin, std::int64_t end) {
-        const c10::NoGradGuard no_gradients;
+      parallel_for((l.shares + 1 - parity) / 2, 1, [&](std::int64_t begin, std::int64_t end) {
+        const auto patches = std::make_unique_for_overwrite<scalar_t[]>(l.values_at_once());
         for (std::int64_t i = begin; i < end; ++i)
-          l.for_each_part(2 * i + parity, [&](std::int64_t first, std::int64_t rows) {
-            const at::Tensor matrix =
-                at::mm(by_tap, gradient.narrow(1, first * l.width, rows * l.width));
-            const scalar_t* source = matrix.data_ptr<scalar_t>();
+          l.for_a_few_rows(2 * i + parity, [&](std::int64_t first, std::int64_t rows) {
+            multiply('T', Matrix<const scalar_t>{filter, l.taps()},
+                     Matrix<const scalar_t>{source + first * l.width, l.height * l.width},
+                     Matrix<scalar_t>{patches.get(), rows * l.width}, l.taps(), rows * l.width,
+                     filters.size(0));
             for_each_line(l, first, rows,
                           [&](std::int64_t c, std::int64_t y, std::int64_t x, std::int64_t from) {
                             scalar_t* out = target + c * plane + y * row + x;
-                            for (std::int64_t k = 0; k < l.width; ++k) out[k] += source[from + k];
+                            const scalar_t* in = patches.get() + from;
+                            for (std::int64_t k = 0; k < l.width; ++k) out[k] += in[k];
                           });
           });
       });

@@ -1,69 +1,62 @@
 #include "neural/loss/wasserstein.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <numeric>
-#include <utility>
+#include <span>
 #include <vector>
 
+#include "core/simd.h"
 #include "core/threads.h"
 #include "neural/normal_numbers.h"
+#include "signal/quantile.h"
+#include "signal/sort.h"
 
 namespace gramloom::neural {
 
 namespace {
 
-// A value as an integer of the same order, and where it came from.
-struct Key {
-  std::uint32_t order;
-  std::uint32_t index;
-};
+constexpr std::int64_t ranks_at_once = 256;
 
-std::uint32_t order_of(float value) {
-  const auto bits = std::bit_cast<std::uint32_t>(value);
-  return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
-}
-
-float value_of(std::uint32_t order) {
-  return std::bit_cast<float>(order & 0x80000000u ? order & 0x7FFFFFFFu : ~order);
-}
-
-std::uint32_t order_of(Key key) { return key.order; }
-std::uint32_t order_of(std::uint32_t order) { return order; }
-
-// Radix sort by three digits of 11 bits: several times as fast as a sort that compares.
-template <class T>
-void sort(std::vector<T>& items, std::vector<T>& spare) {
-  constexpr std::uint32_t digit_bits = 11, size = 1u << digit_bits;
-  constexpr std::size_t digits = 3;
-  std::array<std::array<std::uint32_t, size>, digits> place{};
-  for (const T& item : items)
-    for (std::size_t d = 0; d < digits; ++d)
-      ++place[d][(order_of(item) >> (digit_bits * d)) % size];
-  spare.resize(items.size());
-  for (std::size_t d = 0; d < digits; ++d) {
-    std::uint32_t sum = 0;
-    for (auto& count : place[d]) sum += std::exchange(count, sum);
-    for (const T& item : items)
-      spare[place[d][(order_of(item) >> (digit_bits * d)) % size]++] = item;
-    items.swap(spare);
+// Values of consecutive ranks against the goal's at these ranks: `slopes` become `slope` where the
+// value is above its goal, −slope below, 0 where it is there. The sum of the distances.
+GRAMLOOM_SIMD double compare(const RankedValue* ranked, const float* goals, std::int64_t count,
+                             float slope, float* slopes) {
+  constexpr int lanes = 8;
+  float distances[ranks_at_once];
+  for (std::int64_t i = 0; i < count; ++i) {
+    const float difference = ranked[i].value() - goals[i];
+    distances[i] = std::abs(difference);
+    slopes[i] = (difference > 0 ? slope : 0.0f) - (difference < 0 ? slope : 0.0f);
   }
+  double sums[lanes] = {};
+  std::int64_t i = 0;
+  for (; i + lanes <= count; i += lanes)
+    for (int lane = 0; lane < lanes; ++lane) sums[lane] += static_cast<double>(distances[i + lane]);
+  for (; i < count; ++i) sums[0] += static_cast<double>(distances[i]);
+  return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
 }
 
-// The value of rank i among `count` in `available` ascending values.
-float at_rank(const float* sorted, std::int64_t available, std::int64_t i, std::int64_t count) {
-  if (available == count) return sorted[i];
-  const double rank =
-      (static_cast<double>(i) + 0.5) * static_cast<double>(available) / static_cast<double>(count) -
-      0.5;
-  const double inside = std::clamp(rank, 0.0, static_cast<double>(available - 1));
-  const auto below = static_cast<std::int64_t>(inside);
-  const auto above = std::min(below + 1, available - 1);
-  const auto part = static_cast<float>(inside - static_cast<double>(below));
-  return sorted[below] + part * (sorted[above] - sorted[below]);
+// The distances of one row's values from the goal's, summed; the values become slopes.
+double move_to_slopes(std::span<float> values, std::span<const float> goal, float slope,
+                      Sorter& sorter) {
+  const auto ranked = sorter.rank(values);
+  const Quantiles quantiles(goal, values.size());
+  const auto count = static_cast<std::int64_t>(values.size());
+  float goals[ranks_at_once], slopes[ranks_at_once];
+  double sum = 0;
+  for (std::int64_t first = 0; first < count; first += ranks_at_once) {
+    const std::int64_t some = std::min(ranks_at_once, count - first);
+    quantiles.get(static_cast<std::size_t>(first), {goals, static_cast<std::size_t>(some)});
+    const RankedValue* own = ranked.data() + first;
+    sum += compare(own, goals, some, slope, slopes);
+    for (std::int64_t i = 0; i < some; ++i) values[own[i].place] = slopes[i];
+  }
+  return sum;
+}
+
+std::span<float> row_of(const at::Tensor& rows, std::int64_t r) {
+  return {rows.data_ptr<float>() + r * rows.size(1), static_cast<std::size_t>(rows.size(1))};
 }
 
 }  // namespace
@@ -74,39 +67,20 @@ at::Tensor random_directions(Random random, std::int64_t count, std::int64_t len
 }
 
 void sort_rows(at::Tensor& rows) {
-  const std::int64_t count = rows.size(1);
   parallel_for(rows.size(0), 1, [&](std::int64_t begin, std::int64_t end) {
-    std::vector<std::uint32_t> items(static_cast<std::size_t>(count)), spare;
-    for (std::int64_t r = begin; r < end; ++r) {
-      float* values = rows.data_ptr<float>() + r * count;
-      std::transform(values, values + count, items.begin(), [](float v) { return order_of(v); });
-      sort(items, spare);
-      std::transform(items.begin(), items.end(), values, value_of);
-    }
+    Sorter sorter;
+    for (std::int64_t r = begin; r < end; ++r) sorter.sort(row_of(rows, r));
   });
 }
 
-double wasserstein(at::Tensor& rows, const at::Tensor& target) {
-  const std::int64_t count = rows.size(1), available = target.size(1);
-  const float weight = 1.0f / static_cast<float>(rows.numel());
+double wasserstein(at::Tensor& rows, const at::Tensor& target, double weight) {
+  const float slope = 1.0f / static_cast<float>(rows.numel()) * static_cast<float>(weight);
   std::vector<double> sums(static_cast<std::size_t>(rows.size(0)));
   parallel_for(rows.size(0), 1, [&](std::int64_t begin, std::int64_t end) {
-    std::vector<Key> keys(static_cast<std::size_t>(count)), spare;
-    for (std::int64_t r = begin; r < end; ++r) {
-      float* values = rows.data_ptr<float>() + r * count;
-      const float* goal = target.data_ptr<float>() + r * available;
-      for (std::size_t i = 0; i < keys.size(); ++i)
-        keys[i] = {order_of(values[i]), static_cast<std::uint32_t>(i)};
-      sort(keys, spare);
-      double sum = 0;
-      for (std::int64_t i = 0; i < count; ++i) {
-        const Key key = keys[static_cast<std::size_t>(i)];
-        const float difference = value_of(key.order) - at_rank(goal, available, i, count);
-        sum += std::abs(difference);
-        values[key.index] = difference > 0 ? weight : difference < 0 ? -weight : 0.0f;
-      }
-      sums[static_cast<std::size_t>(r)] = sum;
-    }
+    Sorter sorter;
+    for (std::int64_t r = begin; r < end; ++r)
+      sums[static_cast<std::size_t>(r)] =
+          move_to_slopes(row_of(rows, r), row_of(target, r), slope, sorter);
   });
   double total = 0;
   for (const double sum : sums) total += sum;

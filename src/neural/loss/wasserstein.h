@@ -16,8 +16,8 @@ void sort_rows(at::Tensor& rows);
 /// sorted, when each value goes to the one of its own rank: the Wasserstein distance W₁ in one
 /// dimension, averaged over the rows. Where the sides have different numbers of values, ranks are
 /// relative, and values between two of the target are interpolated.
-/// `rows`, contiguous floats, is overwritten by the gradient.
-double wasserstein(at::Tensor& rows, const at::Tensor& target);
+/// `rows`, contiguous floats, is overwritten by `weight` times the gradient.
+double wasserstein(at::Tensor& rows, const at::Tensor& target, double weight = 1);
 
 /// The mean distance of each row's values from their mean, summed over the rows: in an order that
 /// does not depend on the threads.
