@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/fields.h"
+#include "neural/loss/terms.h"
 
 namespace gramloom {
 
@@ -38,37 +39,16 @@ inline constexpr auto enum_names<Preset> = std::to_array<std::string_view>({"fas
 
 /// Texture synthesis by statistics of a network's feature maps or of random filters: a noise image
 /// is changed step by step, coarse to fine, until its statistics are those of the exemplar. The
-/// loss is a sum of weighted terms, each about 1 for a picture of one colour (Gram matrices: when
-/// all features are 0) and 0, or nearly, for the exemplar itself:
-///   gram             the Gram matrices of the matched layers, G_l = F_l F_lᵀ,
-///                    E_l = 1/(4 N_l² M_l²) Σ (G_l − Ĝ_l)², with F_l the N_l feature maps of layer
-///                    l at M_l positions (Gatys, Ecker, Bethge 2015, "Texture synthesis using
-///                    convolutional neural networks", equations 1 to 4). Departures, each an
-///                    option: G is divided by M, so that exemplar and result may differ in size
-///                    (equal to the paper when they don't); see normalise, centre, standardise,
-///                    shifts, whitening.
-///   sliced           the sliced Wasserstein distance between the two pictures' sets of patches,
-///                    along random directions that are drawn anew in each step of Adam (Heitz,
-///                    Vanhoey, Chambon, Belcour 2021, "A sliced Wasserstein loss for neural texture
-///                    synthesis"; of patches: Elnekave, Weiss 2022). It needs no network.
-///   sliced_features  the same distance between the values of the matched layers' feature maps.
-///   spectrum, autocorrelation, variation: see picture_terms.h.
-/// In a trace, terms of layers have the layer's name too: gram_relu1_1.
-struct NeuralParams {
+/// loss is the weighted sum of the terms in loss/terms.h, each explained in its header. In a trace
+/// they have their names; those that look at a network have the layer's name too: gram_relu1_1.
+struct NeuralParams : LossParams {
   static constexpr std::string_view kind = "neural";
   static constexpr std::string_view summary =
       "statistics of random filters or of a network (Gatys et al. 2015; Heitz et al. 2021)";
 
   Preset preset = Preset::balanced;
 
-  double sliced_weight = 1;
-  std::vector<int> patch_sizes{7, 5};
   int directions = 32;
-  double gram_weight = 0;
-  double sliced_features_weight = 0;
-  double spectrum_weight = 0.05;
-  double autocorrelation_weight = 0;
-  double variation_weight = 0;
 
   std::filesystem::path network = "multiscale";
   std::filesystem::path weights;
@@ -80,10 +60,6 @@ struct NeuralParams {
   Pooling pooling = Pooling::as_described;
   std::vector<std::string> layers;
   std::vector<double> layer_weights;
-  bool normalise = true;
-  bool centre = true;
-  bool standardise = true;
-  std::vector<int> shifts;
   double whitening = 0.4;
 
   std::vector<Optimizer> optimizer{Optimizer::adam};
@@ -103,31 +79,14 @@ struct NeuralParams {
 
   static constexpr auto fields() {
     using P = NeuralParams;
-    constexpr Range weight{0, 1e9};
-    return std::tuple{
-        Field{"preset", &P::preset, "settings that all other keys start from"},
-        Field{"sliced_weight", &P::sliced_weight,
-              "weight of the sliced Wasserstein distance of patches", "", weight},
-        Field{"patch_sizes",
-              &P::patch_sizes,
-              "sides of these patches; of several, steps of adam take turns",
-              "pixels of the level",
-              {1, 64}},
+    constexpr std::tuple first{
+        Field{"preset", &P::preset, "settings that all other keys start from"}};
+    constexpr std::tuple others{
         Field{"directions",
               &P::directions,
               "random directions of each step along which patches or features are compared",
               "",
               {1, 4096}},
-        Field{"gram_weight", &P::gram_weight, "weight of the Gram matrices of a network's layers",
-              "", weight},
-        Field{"sliced_features_weight", &P::sliced_features_weight,
-              "weight of the sliced Wasserstein distance of a network's layers", "", weight},
-        Field{"spectrum_weight", &P::spectrum_weight, "weight of the Fourier spectrum's modulus",
-              "", weight},
-        Field{"autocorrelation_weight", &P::autocorrelation_weight,
-              "weight of the autocorrelation up to a quarter of the exemplar", "", weight},
-        Field{"variation_weight", &P::variation_weight, "weight of the total variation", "",
-              weight},
         Field{"network", &P::network, "network description: a name in models/, or a .toml file"},
         Field{"weights", &P::weights, "trained weights, a .safetensors file; empty: random"},
         Field{"random_weights", &P::random_weights, "distribution of random weights"},
@@ -141,17 +100,6 @@ struct NeuralParams {
         Field{"layers", &P::layers,
               "layers whose statistics are matched; empty: the network's own"},
         Field{"layer_weights", &P::layer_weights, "weight w of each layer; empty: 1 each", "", {0}},
-        Field{"normalise", &P::normalise,
-              "divide each layer's error by its value for the exemplar against nothing"},
-        Field{"centre", &P::centre,
-              "subtract each feature map's mean on the exemplar, and match means as a statistic"},
-        Field{"standardise", &P::standardise,
-              "divide each feature map by its standard deviation on the exemplar"},
-        Field{"shifts",
-              &P::shifts,
-              "distances at which products of maps with shifted maps are matched too",
-              "positions of the layer",
-              {1, 256}},
         Field{"whitening",
               &P::whitening,
               "how much the principal components of colour are made equally strong",
@@ -213,6 +161,7 @@ struct NeuralParams {
         Field{"match_histogram", &P::match_histogram,
               "at the end, give each channel the exemplar's histogram"},
     };
+    return std::tuple_cat(first, LossParams::fields(), others);
   }
 };
 

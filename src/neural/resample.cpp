@@ -170,7 +170,7 @@ Rows rows_to_shrink(Rows rows, std::int64_t height, std::int64_t own_height, Til
                      height, tiles_y(tile) ? Padding::circular : Padding::valid);
 }
 
-Band shrink(const Band& maps, Size size, Rows rows, Tile tile) {
+HeldRows shrink(const HeldRows& maps, Size size, Rows rows, Tile tile) {
   const Axis y{maps.height, size.height, tiles_y(tile), maps.rows, rows};
   const Axis x = whole_axis(maps.data.size(2), size.width, tiles_x(tile));
   return {ResampleFunction::apply(maps.data.contiguous(), numbers_of(y, x, Kernel::triangle)),

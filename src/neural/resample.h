@@ -1,6 +1,6 @@
 #pragma once
 
-#include "neural/network/bands.h"
+#include "neural/network/rows.h"
 
 namespace gramloom::neural {
 
@@ -11,8 +11,8 @@ at::Tensor resample(const at::Tensor& planes, Size size, Tile tile);
 
 /// `rows` of feature maps at a smaller size, by overlapping triangular windows: the transpose of
 /// enlarging the smaller ones bilinearly. Boxes side by side would leave their edges in a
-/// synthesis. The band has at least rows_to_shrink() those.
-Band shrink(const Band& maps, Size size, Rows rows, Tile tile);
+/// synthesis. It has at least rows_to_shrink() those.
+HeldRows shrink(const HeldRows& maps, Size size, Rows rows, Tile tile);
 /// The rows, of `height` in all, that `rows` of `own_height` are made of.
 Rows rows_to_shrink(Rows rows, std::int64_t height, std::int64_t own_height, Tile tile);
 

@@ -63,9 +63,11 @@ void check_settings(const NeuralParams& params) {
       params.layer_weights.empty()
           ? 1
           : std::accumulate(params.layer_weights.begin(), params.layer_weights.end(), 0.0);
-  if (params.sliced_weight + (params.gram_weight + params.sliced_features_weight) * layer_weights +
-          params.spectrum_weight + params.autocorrelation_weight + params.variation_weight ==
-      0)
+  double weights = 0;
+  for_each_term(params, [&]<class Term>(const Term& term) {
+    weights += term.weight() * (LooksAtNetwork<Term> ? layer_weights : 1);
+  });
+  if (weights == 0)
     throw ConfigError(
         "there is nothing to match: sliced_weight, gram_weight and the other weights are all 0");
   const auto of_network = [&](const char* key, bool given) {
@@ -119,37 +121,6 @@ void check_weights(const NeuralParams& params, const NetworkDescription& descrip
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(params.weights, ignored))
     throw ConfigError("weights: there is no file {}", params.weights.string());
-}
-
-namespace {
-
-// All feature maps of the picture that filters are rescaled on are in memory; mean activations on a
-// quarter of a million positions are exact enough.
-constexpr std::int64_t largest_side_to_rescale = 512;
-
-at::Tensor middle(const at::Tensor& planes, std::int64_t side) {
-  const std::int64_t height = std::min(side, planes.size(1)),
-                     width = std::min(side, planes.size(2));
-  return planes.narrow(1, (planes.size(1) - height) / 2, height)
-      .narrow(2, (planes.size(2) - width) / 2, width)
-      .contiguous();
-}
-
-}  // namespace
-
-Network make_network(const NeuralParams& params, const NetworkDescription& description,
-                     const at::Tensor& exemplar) {
-  const int channels = static_cast<int>(exemplar.size(0));
-  const auto shapes = filter_shapes(description, channels);
-  if (params.weights.empty()) {
-    auto filters = random_filters(shapes, params.random_weights,
-                                  static_cast<std::uint64_t>(params.weights_seed));
-    if (!params.rescale) return {description, shapes, std::move(filters), params.pooling};
-    return Network::rescaled(description, shapes, std::move(filters), params.pooling,
-                             middle(exemplar, largest_side_to_rescale),
-                             {params.exemplar_padding, params.exemplar_padding});
-  }
-  return {description, shapes, load_filters(description, shapes, params.weights), params.pooling};
 }
 
 std::string fingerprint(const NeuralParams& params, const Image& exemplar, const Target& target,

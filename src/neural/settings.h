@@ -4,14 +4,18 @@
 #include <string>
 #include <vector>
 
-#include "neural/loss/loss.h"
+#include "core/image.h"
+#include "core/random.h"
+#include "neural/network/work.h"
 #include "neural/params.h"
 
 namespace gramloom::neural {
 
 /// Whether any term looks at a network's layers.
 inline bool needs_network(const NeuralParams& params) {
-  return params.gram_weight + params.sliced_features_weight > 0;
+  bool needed = false;
+  for_each_term(params, [&]<class Term>(const Term&) { needed |= LooksAtNetwork<Term>; });
+  return needed;
 }
 
 /// The value of a list for a level, 0 being the finest: the last one serves all coarser levels.
@@ -43,13 +47,6 @@ std::vector<MatchedLayer> matched_layers(const NeuralParams& params,
 /// Throws Error when trained weights are for another number of channels, ConfigError when there is
 /// no such file.
 void check_weights(const NeuralParams& params, const NetworkDescription& description, int channels);
-
-/// The network with its weights, random (rescaled on the exemplar, or the middle of a large one,
-/// where asked for) or from a file.
-/// exemplar: (channels, height, width), as the network sees it. Throws Error when the file does
-/// not have what the network needs.
-Network make_network(const NeuralParams& params, const NetworkDescription& description,
-                     const at::Tensor& exemplar);
 
 /// A hash of what the result depends on, for checkpoints; of the weights and the image to start
 /// from it knows the names, not the content.

@@ -1,6 +1,8 @@
 #include "neural/synthesis.h"
 
 #include <ATen/Parallel.h>
+#include <c10/core/GradMode.h>
+#include <malloc.h>
 
 #include <chrono>
 #include <cmath>
@@ -11,6 +13,7 @@
 #include "neural/checkpoint.h"
 #include "neural/layout.h"
 #include "neural/loss/loss.h"
+#include "neural/network/make_network.h"
 #include "neural/picture.h"
 #include "neural/resample.h"
 #include "neural/settings.h"
@@ -169,6 +172,7 @@ class Synthesis {
 
     if (state_.iteration >= iterations || out_of_time()) return true;
 
+    malloc_trim(0);  // the buffers of the level before have other sizes, and would stay
     Loss loss(params_, matched_ ? &*matched_ : nullptr, exemplar_of_level(), exemplar_edges(),
               {size, target_.tile}, edges(),
               random_.stream(1).stream(static_cast<std::uint64_t>(state_.level)));

@@ -1,10 +1,12 @@
 // Seconds of one evaluation of the loss with its gradient, by network and size; the Gram matrix
 // alone; L-BFGS alone. Run: build/tests/bench/neural_bench [--benchmark_filter=…]
 #include <ATen/Parallel.h>
+#include <c10/core/GradMode.h>
 #include <benchmark/benchmark.h>
 
 #include "core/threads.h"
 #include "neural/loss/loss.h"
+#include "neural/network/make_network.h"
 #include "neural/optimise/optimiser.h"
 #include "neural/picture.h"
 #include "neural/settings.h"

@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(
                      p = small_network();
                      p.shifts = {1, 2, 4};
                    }},
-        MemoryCase{"bands",
+        MemoryCase{"a_few_rows",
                    {256, 256},
                    {900, 700},
                    3,

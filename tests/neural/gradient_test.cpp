@@ -11,7 +11,7 @@ namespace {
 struct Case {
   Padding padding;
   Pooling pooling;
-  GramOptions options;
+  GramParams options;
 };
 
 NetworkDescription tiny_network() {
@@ -26,12 +26,9 @@ NetworkDescription tiny_network() {
 }
 
 // The Gram matrices alone, compared like that.
-NeuralParams grams(const GramOptions& options) {
+NeuralParams grams(const GramParams& options) {
   NeuralParams params = with_preset(Preset::gatys);
-  params.normalise = options.normalise;
-  params.centre = options.centre;
-  params.standardise = options.standardise;
-  params.shifts = options.shifts;
+  static_cast<GramParams&>(params) = options;
   return params;
 }
 
@@ -67,13 +64,13 @@ std::vector<Case> cases() {
   std::vector<Case> all;
   for (const auto padding : {Padding::circular, Padding::reflect, Padding::zero, Padding::valid})
     for (const auto pooling : {Pooling::average, Pooling::max})
-      all.push_back({padding, pooling, {true, true, true, {}}});
+      all.push_back({padding, pooling, {1, true, true, true, {}}});
   for (int options = 0; options < 8; ++options)
     all.push_back({Padding::circular,
                    Pooling::average,
-                   {(options & 1) != 0, (options & 2) != 0, (options & 4) != 0, {}}});
-  all.push_back({Padding::circular, Pooling::average, {true, true, true, {1, 2}}});
-  all.push_back({Padding::reflect, Pooling::average, {false, false, false, {1}}});
+                   {1, (options & 1) != 0, (options & 2) != 0, (options & 4) != 0, {}}});
+  all.push_back({Padding::circular, Pooling::average, {1, true, true, true, {1, 2}}});
+  all.push_back({Padding::reflect, Pooling::average, {1, false, false, false, {1}}});
   return all;
 }
 
@@ -84,8 +81,8 @@ TEST(PyramidGradient, MatchesFiniteDifferences) {
     const Edges edges{padding, padding};
     const at::Tensor picture = numbers({2, 13, 18}, 2, at::kDouble);  // odd: sizes 13, 7, 4
     const MatchedNetwork matched{network, description, {{1, 1}, {3, 0.5}}};
-    Loss loss(grams({true, true, true, {}}), &matched, numbers({2, 16, 18}, 1, at::kDouble), edges,
-              {size_of(picture), Tile::both}, edges, Random(1));
+    Loss loss(grams({1, true, true, true, {}}), &matched, numbers({2, 16, 18}, 1, at::kDouble),
+              edges, {size_of(picture), Tile::both}, edges, Random(1));
     at::Tensor gradient = at::empty_like(picture), unused = at::empty_like(picture);
     loss(picture, 0, gradient);
     for (std::uint64_t trial = 0; trial < 4; ++trial) {

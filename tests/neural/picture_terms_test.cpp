@@ -1,44 +1,48 @@
-#include "neural/loss/picture_terms.h"
-
+// The terms of the loss that look at the picture itself; patches are in sliced_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "neural/loss/lags.h"
 #include "tensors.h"
+#include "terms.h"
 
 namespace gramloom::neural {
 namespace {
 
-Size size_of(const at::Tensor& planes) {
-  return {static_cast<int>(planes.size(2)), static_cast<int>(planes.size(1))};
-}
+struct AutocorrelationTerm : MadeTerm {
+  AutocorrelationTerm(const at::Tensor& exemplar, Size target, Tile wraps)
+      : MadeTerm(AutocorrelationParams{}, exemplar, target, wraps) {}
+};
+struct SpectrumTerm : MadeTerm {
+  SpectrumTerm(const at::Tensor& exemplar, Size target)
+      : MadeTerm(SpectrumParams{}, exemplar, target, Tile::both) {}
+};
+struct VariationTerm : MadeTerm {
+  VariationTerm(const at::Tensor& exemplar, Tile wraps)
+      : MadeTerm(VariationParams{}, exemplar, size_of(exemplar), wraps) {}
+};
 
-template <class Term>
-double value(const Term& term, const at::Tensor& picture) {
-  at::Tensor gradient = at::zeros_like(picture);
-  return term.add(picture, 1, 0, gradient);
-}
+double value(const MadeTerm& term, const at::Tensor& picture) { return term.value(picture); }
 
-template <class Term>
-void expect_gradient_of_finite_differences(const Term& term, const at::Tensor& picture) {
+void expect_gradient_of_finite_differences(const MadeTerm& term, const at::Tensor& picture) {
   at::Tensor gradient = at::zeros_like(picture);
   const double own = term.add(picture, 1, 0, gradient);
-  const double norm = gradient.norm().template item<double>();
+  const double norm = gradient.norm().item<double>();
   ASSERT_GT(norm, 0);
   for (std::uint64_t trial = 0; trial < 4; ++trial) {
     const at::Tensor direction = numbers(picture.sizes(), 50 + trial, at::kDouble);
     const double h = 1e-6;
     const double difference =
         (value(term, picture + h * direction) - value(term, picture - h * direction)) / (2 * h);
-    EXPECT_NEAR((gradient * direction).sum().template item<double>(), difference, 1e-5 * norm);
+    EXPECT_NEAR((gradient * direction).sum().item<double>(), difference, 1e-5 * norm);
   }
   at::Tensor more = picture.clone();  // the weight is the gradient's, which is added
   EXPECT_EQ(term.add(picture, 3, 0, more), own);
   EXPECT_LT(relative_difference(more, picture + 3 * gradient), 1e-12);
 }
 
-template <class Term>
-void expect_the_same_of_shifts(const Term& term, const at::Tensor& picture) {
+void expect_the_same_of_shifts(const MadeTerm& term, const at::Tensor& picture) {
   const double own = value(term, picture);
   ASSERT_GT(own, 1e-3);
   EXPECT_NEAR(value(term, at::roll(picture, {3, -4}, {1, 2})), own, 1e-9 * own);

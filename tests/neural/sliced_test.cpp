@@ -7,13 +7,17 @@
 #include "neural/loss/patches.h"
 #include "neural/loss/wasserstein.h"
 #include "tensors.h"
+#include "terms.h"
 
 namespace gramloom::neural {
 namespace {
 
-Size size_of(const at::Tensor& planes) {
-  return {static_cast<int>(planes.size(2)), static_cast<int>(planes.size(1))};
-}
+struct SlicedTerm : MadeTerm {
+  SlicedTerm(const at::Tensor& exemplar, Size target, Tile wraps, std::vector<int> patch_sizes,
+             int directions, Random random)
+      : MadeTerm(SlicedParams{1, std::move(patch_sizes)}, exemplar, target, wraps, directions,
+                 random) {}
+};
 
 SlicedTerm term_for(const at::Tensor& exemplar, Size target, Tile wraps,
                     std::vector<int> patch_sizes = {5}, int directions = 8) {
@@ -21,8 +25,7 @@ SlicedTerm term_for(const at::Tensor& exemplar, Size target, Tile wraps,
 }
 
 double value(const SlicedTerm& term, const at::Tensor& picture, std::uint64_t step = 0) {
-  at::Tensor gradient = at::zeros_like(picture);
-  return term.add(picture, 1, step, gradient);
+  return term.value(picture, step);
 }
 
 std::string complaint(const at::Tensor& exemplar, Size target, Tile wraps, int patch_size) {

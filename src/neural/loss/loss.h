@@ -3,8 +3,7 @@
 #include <optional>
 
 #include "core/progress.h"
-#include "neural/loss/network_terms.h"
-#include "neural/loss/picture_terms.h"
+#include "neural/loss/features.h"
 
 namespace gramloom::neural {
 
@@ -19,12 +18,18 @@ class Loss {
   /// The loss of a picture (channels, height, width) and its gradient. Losses of one step are those
   /// of one function; a step has random directions of its own.
   double operator()(const at::Tensor& picture, std::uint64_t step, at::Tensor& gradient);
-  /// The weighted terms by name, of the last picture.
+  /// The weighted terms by name, of the last picture: those that look at a network first.
   const std::vector<Term>& terms() const { return terms_; }
 
  private:
-  std::optional<NetworkTerms> network_terms_;
-  std::vector<std::pair<PictureTerm, double>> picture_terms_;  // with their weights
+  struct Weighted {
+    std::string_view name;
+    double weight;
+    std::unique_ptr<PictureTerm> term;
+  };
+
+  std::optional<Features> features_;
+  std::vector<Weighted> pictures_;
   std::vector<Term> terms_;
 };
 

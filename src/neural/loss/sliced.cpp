@@ -1,24 +1,12 @@
 #include "neural/loss/sliced.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
-#include "core/error.h"
-#include "core/threads.h"
+#include "neural/loss/loss_term.h"
 #include "neural/loss/patches.h"
 #include "neural/loss/wasserstein.h"
-#include "neural/network/feature_maps.h"
 
 namespace gramloom::neural {
 
 namespace {
-
-void check_fit(const char* what, Size size, Tile wraps, int side) {
-  if ((tiles_y(wraps) || size.height >= side) && (tiles_x(wraps) || size.width >= side)) return;
-  throw Error("the {0} of {1}×{2} is too small for patches of {3}×{3}: make patch_sizes smaller",
-              what, size.width, size.height, side);
-}
 
 // Calls f(some of the filters), few enough for that many positions.
 template <class F>
@@ -29,56 +17,64 @@ void for_each_group(const at::Tensor& filters, std::int64_t positions, F&& f) {
     f(filters.narrow(0, first, std::min(at_once, filters.size(0) - first)));
 }
 
+class SlicedTerm : public PictureTerm {
+ public:
+  SlicedTerm(const SlicedParams& params, const LossInput& input)
+      : exemplar_(input.exemplar),
+        wraps_(input.target.tile),
+        patch_sizes_(params.patch_sizes),
+        directions_(input.directions),
+        random_(input.random) {
+    check_patches_fit(patch_sizes_, size_of(exemplar_), input.target.size, wraps_);
+    for_each_group(filters(0), exemplar_.numel() / exemplar_.size(0), [&](const at::Tensor& some) {
+      flat_ += distance_from_mean(project_patches(exemplar_, some, Tile::none));
+    });
+    flat_ /= directions_;
+    // The mean of equal values is rounded.
+    if (flat_ < 1e-6 * exemplar_.square().mean().sqrt().item<double>()) flat_ = 0;
+  }
+
+  double add(const at::Tensor& picture, double weight, std::uint64_t step,
+             at::Tensor& gradient) const override {
+    if (flat_ == 0) {
+      const at::Tensor off = picture - exemplar_.mean({1, 2}, true);
+      gradient.add_(off, weight * 2 / static_cast<double>(picture.numel()));
+      return off.square().mean().item<double>();
+    }
+    const std::int64_t positions = std::max(picture.numel(), exemplar_.numel()) / picture.size(0);
+    double sum = 0;
+    for_each_group(filters(step), positions, [&](const at::Tensor& some) {
+      const auto count = static_cast<double>(some.size(0));
+      at::Tensor goal = project_patches(exemplar_, some, Tile::none);
+      sort_rows(goal);
+      at::Tensor values = project_patches(picture, some, wraps_);
+      sum += wasserstein(values, goal, weight * count / directions_ / flat_) * count;
+      spread_patches(values, some, wraps_, gradient);
+    });
+    return sum / directions_ / flat_;
+  }
+
+ private:
+  // (directions, channels, side, side): unit vectors; step i has patch_sizes[i mod their number].
+  at::Tensor filters(std::uint64_t step) const {
+    const std::int64_t side = patch_sizes_[step % patch_sizes_.size()],
+                       channels = exemplar_.size(0);
+    return random_directions(random_.stream(step), directions_, channels * side * side)
+        .view({directions_, channels, side, side});
+  }
+
+  at::Tensor exemplar_;
+  Tile wraps_;  // the edges across which patches of the result go on; the exemplar's stay inside
+  std::vector<int> patch_sizes_;
+  int directions_;
+  Random random_;
+  double flat_ = 0;  // the exemplar's distance from a flat picture; 0: it is flat itself
+};
+
 }  // namespace
 
-void check_patches_fit(const std::vector<int>& patch_sizes, Size exemplar, Size target,
-                       Tile wraps) {
-  for (const int side : patch_sizes) {
-    check_fit("exemplar", exemplar, Tile::none, side);
-    check_fit("texture", target, wraps, side);
-  }
-}
-
-SlicedTerm::SlicedTerm(at::Tensor exemplar, Size target, Tile wraps, std::vector<int> patch_sizes,
-                       int directions, Random random)
-    : exemplar_(std::move(exemplar)),
-      wraps_(wraps),
-      patch_sizes_(std::move(patch_sizes)),
-      directions_(directions),
-      random_(random) {
-  check_patches_fit(patch_sizes_, size_of(exemplar_), target, wraps);
-  for_each_group(filters(0), exemplar_.numel() / exemplar_.size(0), [&](const at::Tensor& some) {
-    flat_ += distance_from_mean(project_patches(exemplar_, some, Tile::none));
-  });
-  flat_ /= directions_;
-  // The mean of equal values is rounded.
-  if (flat_ < 1e-6 * exemplar_.square().mean().sqrt().item<double>()) flat_ = 0;
-}
-
-at::Tensor SlicedTerm::filters(std::uint64_t step) const {
-  const std::int64_t side = patch_sizes_[step % patch_sizes_.size()], channels = exemplar_.size(0);
-  return random_directions(random_.stream(step), directions_, channels * side * side)
-      .view({directions_, channels, side, side});
-}
-
-double SlicedTerm::add(const at::Tensor& picture, double weight, std::uint64_t step,
-                       at::Tensor& gradient) const {
-  if (flat_ == 0) {  // a flat exemplar: its colour is all there is to match
-    const at::Tensor off = picture - exemplar_.mean({1, 2}, true);
-    gradient.add_(off, weight * 2 / static_cast<double>(picture.numel()));
-    return off.square().mean().item<double>();
-  }
-  const std::int64_t positions = std::max(picture.numel(), exemplar_.numel()) / picture.size(0);
-  double sum = 0;
-  for_each_group(filters(step), positions, [&](const at::Tensor& some) {
-    const auto count = static_cast<double>(some.size(0));
-    at::Tensor goal = project_patches(exemplar_, some, Tile::none);
-    sort_rows(goal);
-    at::Tensor values = project_patches(picture, some, wraps_);
-    sum += wasserstein(values, goal) * count;
-    spread_patches(values.mul_(weight * count / directions_ / flat_), some, wraps_, gradient);
-  });
-  return sum / directions_ / flat_;
+std::unique_ptr<PictureTerm> make_term(const SlicedParams& params, const LossInput& input) {
+  return std::make_unique<SlicedTerm>(params, input);
 }
 
 }  // namespace gramloom::neural

@@ -1,5 +1,7 @@
 #include "neural/network/network.h"
 
+#include <c10/core/GradMode.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -46,10 +48,10 @@ at::Tensor halved(const at::Tensor& planes, Edges edges) {
   return resample(planes, {half(planes.size(2)), half(planes.size(1))}, wrapped_axes(edges));
 }
 
-// One over each filter's mean activation over all positions of all views; 1 for dead filters.
-at::Tensor inverse_activation(const std::vector<Band>& views) {
+// One over each filter's mean activation over all positions of all scales; 1 for dead filters.
+at::Tensor inverse_activation(const std::vector<HeldRows>& scales) {
   std::vector<at::Tensor> rows;
-  for (const auto& band : views) rows.push_back(to_rows({at::relu(band.data), band.channels}));
+  for (const auto& held : scales) rows.push_back(to_rows({at::relu(held.data), held.channels}));
   const at::Tensor mean = at::cat(rows).mean(0);
   return at::where(mean > 1e-12, 1 / mean, at::ones_like(mean));
 }
@@ -83,9 +85,9 @@ bool Network::is_pyramid(std::size_t layer) const {
   return is<PyramidLayer>(description_.layers[layer]);
 }
 
-std::span<const Network::Branch> Network::branches(std::size_t layer, std::size_t view) const {
+std::span<const Network::Branch> Network::branches(std::size_t layer, std::size_t scale) const {
   const std::span all(branches_[layer]);
-  return is_pyramid(layer) ? all.subspan(view, 1) : all;
+  return is_pyramid(layer) ? all.subspan(scale, 1) : all;
 }
 
 std::int64_t Network::radius(std::size_t layer) const {
@@ -95,16 +97,16 @@ std::int64_t Network::radius(std::size_t layer) const {
   return result;
 }
 
-std::vector<at::Tensor> Network::views(const at::Tensor& picture, Edges edges) const {
+std::vector<at::Tensor> Network::scales(const at::Tensor& picture, Edges edges) const {
   std::vector<at::Tensor> result{picture};
   if (is_pyramid(0))
     while (result.size() < branches_[0].size()) result.push_back(halved(result.back(), edges));
   return result;
 }
 
-std::vector<Size> Network::sizes(Size view, Edges edges) const {
+std::vector<Size> Network::sizes(Size scale, Edges edges) const {
   std::vector<Size> result;
-  Size size = view;
+  Size size = scale;
   for (std::size_t i = 0; i < description_.layers.size(); ++i) {
     const Layer& layer = description_.layers[i];
     const int lost = static_cast<int>(2 * radius(i));
@@ -115,7 +117,7 @@ std::vector<Size> Network::sizes(Size view, Edges edges) const {
     if (size.width < 1 || size.height < 1)
       throw Error(
           "layer '{}' of network '{}' would be empty: a picture of {}×{} is too small for it",
-          layer.name, description_.name, view.width, view.height);
+          layer.name, description_.name, scale.width, scale.height);
     result.push_back(size);
   }
   return result;
@@ -152,14 +154,14 @@ std::vector<Rows> Network::needed(const std::vector<Size>& sizes, Edges edges,
   return result;
 }
 
-Band Network::convolved(std::size_t layer, std::size_t view, const Band& input, Rows rows,
-                        std::int64_t own_height, Edges edges, bool relu) const {
+HeldRows Network::convolved(std::size_t layer, std::size_t scale, const HeldRows& input, Rows rows,
+                            std::int64_t own_height, Edges edges, bool relu) const {
   const std::int64_t lost = edges.y == Padding::valid ? radius(layer) : 0;
   std::vector<FeatureMaps> parts;
-  for (const Branch& branch : branches(layer, view)) {
+  for (const Branch& branch : branches(layer, scale)) {
     const std::int64_t r = branch.convolution.radius(), b = blur_radius(branch.blur);
     const Rows seen{rows.begin + lost - r, rows.end + lost + r};
-    Band from = input;
+    HeldRows from = input;
     if (b > 0) {
       from.rows = rows_behind(seen, input.height, edges.y);
       const at::Tensor sharp =
@@ -181,8 +183,8 @@ Band Network::convolved(std::size_t layer, std::size_t view, const Band& input, 
   return {maps.data, maps.channels, rows, own_height};
 }
 
-Band Network::pooled(std::size_t layer, const Band& input, Rows rows, std::int64_t own_height,
-                     Edges edges) const {
+HeldRows Network::pooled(std::size_t layer, const HeldRows& input, Rows rows,
+                         std::int64_t own_height, Edges edges) const {
   const bool average =
       pooling_ == Pooling::average ||
       (pooling_ == Pooling::as_described && is<AveragePoolLayer>(description_.layers[layer]));
@@ -194,39 +196,39 @@ Band Network::pooled(std::size_t layer, const Band& input, Rows rows, std::int64
   return {parts.size() == 1 ? parts[0] : at::cat(parts, 1), input.channels, rows, own_height};
 }
 
-Band Network::apply(std::size_t layer, std::size_t view, const Band& input, Rows rows,
-                    std::int64_t own_height, Edges edges, bool relu) const {
+HeldRows Network::apply(std::size_t layer, std::size_t scale, const HeldRows& input, Rows rows,
+                        std::int64_t own_height, Edges edges, bool relu) const {
   if (!branches_[layer].empty())
-    return convolved(layer, view, input, rows, own_height, edges, relu);
-  Band from = input;
+    return convolved(layer, scale, input, rows, own_height, edges, relu);
+  HeldRows from = input;
   if (input.is_picture()) from.data = to_maps(input.data).data;
   if (is<ReluLayer>(description_.layers[layer]))
     return {at::relu(take_rows(from, rows, edges.y)), from.channels, rows, own_height};
   return pooled(layer, from, rows, own_height, edges);
 }
 
-Rows Network::rows_of_view(Size view, Edges edges, const std::vector<std::size_t>& wanted,
-                           const std::vector<Rows>& rows) const {
-  const auto sizes = this->sizes(view, edges);
-  return inputs(0, needed(sizes, edges, wanted, rows)[0], view.height, sizes[0].height, edges);
+Rows Network::rows_of_scale(Size scale, Edges edges, const std::vector<std::size_t>& wanted,
+                            const std::vector<Rows>& rows) const {
+  const auto sizes = this->sizes(scale, edges);
+  return inputs(0, needed(sizes, edges, wanted, rows)[0], scale.height, sizes[0].height, edges);
 }
 
-std::vector<Band> Network::bands(std::size_t index, const Band& view, Edges edges,
-                                 const std::vector<std::size_t>& wanted,
-                                 const std::vector<Rows>& rows) const {
-  const auto sizes = this->sizes(view.size(), edges);
+std::vector<HeldRows> Network::maps_of_rows(std::size_t index, const HeldRows& scale, Edges edges,
+                                            const std::vector<std::size_t>& wanted,
+                                            const std::vector<Rows>& rows) const {
+  const auto sizes = this->sizes(scale.size(), edges);
   const auto needed = this->needed(sizes, edges, wanted, rows);
-  std::vector<Band> result;
-  Band band = view;
+  std::vector<HeldRows> result;
+  HeldRows maps = scale;
   for (std::size_t i = 0; result.size() < wanted.size(); ++i) {
     const bool fuse = !branches_[i].empty() && wanted[result.size()] != i &&
                       i + 1 < description_.layers.size() &&
                       is<ReluLayer>(description_.layers[i + 1]);
-    band = apply(i, index, band, needed[i], sizes[i].height, edges, fuse);
+    maps = apply(i, index, maps, needed[i], sizes[i].height, edges, fuse);
     if (fuse) ++i;
     if (wanted[result.size()] != i) continue;
     const Rows own = rows[result.size()];
-    result.push_back({take_rows(band, own, edges.y), band.channels, own, band.height});
+    result.push_back({take_rows(maps, own, edges.y), maps.channels, own, maps.height});
   }
   return result;
 }
@@ -234,13 +236,13 @@ std::vector<Band> Network::bands(std::size_t index, const Band& view, Edges edge
 std::vector<Scales> Network::operator()(const at::Tensor& picture, Edges edges,
                                         const std::vector<std::size_t>& wanted) const {
   std::vector<Scales> result(wanted.size());
-  const auto views = this->views(picture, edges);
-  for (std::size_t k = 0; k < views.size(); ++k) {
-    const auto sizes = this->sizes(size_of(views[k]), edges);
+  const auto scales = this->scales(picture, edges);
+  for (std::size_t k = 0; k < scales.size(); ++k) {
+    const auto sizes = this->sizes(size_of(scales[k]), edges);
     std::vector<Rows> all;
     for (const std::size_t layer : wanted) all.push_back({0, sizes[layer].height});
-    const auto bands = this->bands(k, whole_band(views[k]), edges, wanted, all);
-    for (std::size_t i = 0; i < wanted.size(); ++i) result[i].push_back(bands[i].maps());
+    const auto maps = this->maps_of_rows(k, all_rows(scales[k]), edges, wanted, all);
+    for (std::size_t i = 0; i < wanted.size(); ++i) result[i].push_back(maps[i].maps());
   }
   return result;
 }
@@ -251,19 +253,19 @@ Network Network::rescaled(const NetworkDescription& description,
                           const at::Tensor& picture, Edges edges) {
   const c10::NoGradGuard no_gradients;
   const Network network(description, shapes, weights, pooling);
-  std::vector<Band> bands;
+  std::vector<HeldRows> maps;
   std::vector<std::vector<Size>> sizes;
-  for (const auto& view : network.views(picture, edges)) {
-    bands.push_back(whole_band(view));
-    sizes.push_back(network.sizes(size_of(view), edges));
+  for (const auto& scale : network.scales(picture, edges)) {
+    maps.push_back(all_rows(scale));
+    sizes.push_back(network.sizes(size_of(scale), edges));
   }
   for (std::size_t layer = 0, filters = 0; layer < description.layers.size(); ++layer) {
-    for (std::size_t k = 0; k < bands.size(); ++k) {
+    for (std::size_t k = 0; k < maps.size(); ++k) {
       const std::int64_t height = sizes[k][layer].height;
-      bands[k] = network.apply(layer, k, bands[k], {0, height}, height, edges, false);
+      maps[k] = network.apply(layer, k, maps[k], {0, height}, height, edges, false);
     }
     // The next layer sees what this one would give with filters divided by their activations.
-    const auto scale = [&](const at::Tensor& factor, std::size_t branches) {
+    const auto multiply = [&](const at::Tensor& factor, std::size_t branches) {
       for (std::int64_t from = 0; branches > 0; --branches, ++filters) {
         FilterWeights& own = weights[filters];
         const at::Tensor part = factor.narrow(0, from, own.weights.size(0));
@@ -272,22 +274,22 @@ Network Network::rescaled(const NetworkDescription& description,
         from += part.size(0);
       }
     };
-    const auto scaled = [](const Band& band, const at::Tensor& factor) {
-      Band result = band;
-      result.data = to_maps(to_planes(band.maps()) * factor.view({-1, 1, 1})).data;
+    const auto scaled = [](const HeldRows& held, const at::Tensor& factor) {
+      HeldRows result = held;
+      result.data = to_maps(to_planes(held.maps()) * factor.view({-1, 1, 1})).data;
       return result;
     };
     const std::size_t branches = network.branches_[layer].size();
     if (network.is_pyramid(layer)) {
-      for (auto& band : bands) {
-        const at::Tensor factor = inverse_activation({band});
-        scale(factor, 1);
-        band = scaled(band, factor);
+      for (auto& held : maps) {
+        const at::Tensor factor = inverse_activation({held});
+        multiply(factor, 1);
+        held = scaled(held, factor);
       }
     } else if (branches > 0) {
-      const at::Tensor factor = inverse_activation(bands);
-      scale(factor, branches);
-      for (auto& band : bands) band = scaled(band, factor);
+      const at::Tensor factor = inverse_activation(maps);
+      multiply(factor, branches);
+      for (auto& held : maps) held = scaled(held, factor);
     }
   }
   return {description, shapes, std::move(weights), pooling};

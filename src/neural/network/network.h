@@ -2,9 +2,9 @@
 
 #include <span>
 
-#include "neural/network/bands.h"
 #include "neural/network/convolution.h"
 #include "neural/network/network_description.h"
+#include "neural/network/rows.h"
 
 namespace gramloom::neural {
 
@@ -50,17 +50,17 @@ class Network {
   // The same a few rows at a time: any rows of any layer can be had without the others.
 
   /// What the first layer looks at: the picture, or, for a pyramid, the picture at each of its
-  /// sizes. All other layers act on each of these views alone.
-  std::vector<at::Tensor> views(const at::Tensor& picture, Edges edges) const;
-  /// The size of each layer's maps of a view of that size. Throws Error when one would be empty.
-  std::vector<Size> sizes(Size view, Edges edges) const;
-  /// The rows of such a view that `rows` of the layers `wanted` are made of, one for each of them.
-  Rows rows_of_view(Size view, Edges edges, const std::vector<std::size_t>& wanted,
-                    const std::vector<Rows>& rows) const;
-  /// These rows, given at least those of the view number `index`.
-  std::vector<Band> bands(std::size_t index, const Band& view, Edges edges,
-                          const std::vector<std::size_t>& wanted,
-                          const std::vector<Rows>& rows) const;
+  /// sizes. All other layers act on each of these scales alone.
+  std::vector<at::Tensor> scales(const at::Tensor& picture, Edges edges) const;
+  /// The size of each layer's maps of a scale of that size. Throws Error when one would be empty.
+  std::vector<Size> sizes(Size scale, Edges edges) const;
+  /// The rows of such a scale that `rows` of the layers `wanted` are made of, one for each of them.
+  Rows rows_of_scale(Size scale, Edges edges, const std::vector<std::size_t>& wanted,
+                     const std::vector<Rows>& rows) const;
+  /// The maps of these rows, given at least those of scale number `index`.
+  std::vector<HeldRows> maps_of_rows(std::size_t index, const HeldRows& scale, Edges edges,
+                                     const std::vector<std::size_t>& wanted,
+                                     const std::vector<Rows>& rows) const;
 
  private:
   struct Branch {  // of a layer with filters
@@ -69,8 +69,8 @@ class Network {
   };
 
   bool is_pyramid(std::size_t layer) const;
-  // Those that look at that view.
-  std::span<const Branch> branches(std::size_t layer, std::size_t view) const;
+  // Those that look at that scale.
+  std::span<const Branch> branches(std::size_t layer, std::size_t scale) const;
   std::int64_t radius(std::size_t layer) const;
   // For each layer up to the last wanted one, the rows of its maps that are needed.
   std::vector<Rows> needed(const std::vector<Size>& sizes, Edges edges,
@@ -80,12 +80,12 @@ class Network {
   Rows inputs(std::size_t layer, Rows rows, std::int64_t height, std::int64_t own_height,
               Edges edges) const;
   // `rows` of a layer's maps from what it looks at.
-  Band apply(std::size_t layer, std::size_t view, const Band& input, Rows rows,
-             std::int64_t own_height, Edges edges, bool relu) const;
-  Band convolved(std::size_t layer, std::size_t view, const Band& input, Rows rows,
+  HeldRows apply(std::size_t layer, std::size_t scale, const HeldRows& input, Rows rows,
                  std::int64_t own_height, Edges edges, bool relu) const;
-  Band pooled(std::size_t layer, const Band& input, Rows rows, std::int64_t own_height,
-              Edges edges) const;
+  HeldRows convolved(std::size_t layer, std::size_t scale, const HeldRows& input, Rows rows,
+                     std::int64_t own_height, Edges edges, bool relu) const;
+  HeldRows pooled(std::size_t layer, const HeldRows& input, Rows rows, std::int64_t own_height,
+                  Edges edges) const;
 
   NetworkDescription description_;
   Pooling pooling_;

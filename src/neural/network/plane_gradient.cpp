@@ -1,5 +1,7 @@
 #include "neural/network/plane_gradient.h"
 
+#include <c10/core/GradMode.h>
+
 #include <algorithm>
 
 #include "core/threads.h"
@@ -42,28 +44,29 @@ at::Tensor plane_gradient(const at::Tensor& upstream, const at::Tensor& weights,
   const std::int64_t span = (kernel - 1) * dilation;
   const at::Tensor by_tap = weights.reshape({outputs, -1}).t().contiguous();
 
-  // Stripes of rows, each into a part of its own, which overlap by `span` rows. Their split does
-  // not depend on the number of threads.
-  const std::int64_t stripe = std::max<std::int64_t>(4 * rows_at_once, 2 * span);
-  const std::int64_t stripes = (height + stripe - 1) / stripe;
-  std::vector<at::Tensor> parts(static_cast<std::size_t>(stripes));
-  parallel_for(stripes, 1, [&](std::int64_t begin, std::int64_t end) {
+  // Rows are shared out, each share into a tensor of its own, which overlap by `span` rows. The
+  // shares do not depend on the number of threads.
+  const std::int64_t rows_of_share = std::max<std::int64_t>(4 * rows_at_once, 2 * span);
+  const std::int64_t shares = (height + rows_of_share - 1) / rows_of_share;
+  std::vector<at::Tensor> results(static_cast<std::size_t>(shares));
+  parallel_for(shares, 1, [&](std::int64_t begin, std::int64_t end) {
     const c10::NoGradGuard no_gradients;
     for (std::int64_t s = begin; s < end; ++s) {
-      const std::int64_t last = std::min(height, (s + 1) * stripe);
-      at::Tensor part =
-          at::zeros({inputs, last - s * stripe + span, width + span}, upstream.options());
-      for (std::int64_t y = s * stripe; y < last; y += rows_at_once) {
-        at::Tensor rest = part.narrow(1, y - s * stripe, part.size(1) - (y - s * stripe));
+      const std::int64_t last = std::min(height, (s + 1) * rows_of_share);
+      at::Tensor own =
+          at::zeros({inputs, last - s * rows_of_share + span, width + span}, upstream.options());
+      for (std::int64_t y = s * rows_of_share; y < last; y += rows_at_once) {
+        at::Tensor rest =
+            own.narrow(1, y - s * rows_of_share, own.size(1) - (y - s * rows_of_share));
         add_rows(upstream, by_tap, kernel, dilation, y, std::min(rows_at_once, last - y), rest);
       }
-      parts[static_cast<std::size_t>(s)] = part;
+      results[static_cast<std::size_t>(s)] = own;
     }
   });
   at::Tensor result = at::zeros({inputs, height + span, width + span}, upstream.options());
-  for (std::int64_t s = 0; s < stripes; ++s) {
-    const at::Tensor& part = parts[static_cast<std::size_t>(s)];
-    result.narrow(1, s * stripe, part.size(1)).add_(part);
+  for (std::int64_t s = 0; s < shares; ++s) {
+    const at::Tensor& own = results[static_cast<std::size_t>(s)];
+    result.narrow(1, s * rows_of_share, own.size(1)).add_(own);
   }
   return result;
 }

@@ -1,12 +1,13 @@
-// The sliced Wasserstein distance of feature maps; Gram matrices are in statistics_test.cpp and
-// gradient_test.cpp, both in bands in bands_test.cpp.
-#include "neural/loss/network_terms.h"
+// The sliced Wasserstein distance of feature maps; Gram matrices are in moments_test.cpp and
+// gradient_test.cpp, both a few rows at a time in rows_test.cpp.
+#include "neural/loss/features.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "neural/settings.h"
+#include "feature_terms.h"
+#include "neural/network/make_network.h"
 #include "tensors.h"
 
 namespace gramloom::neural {
@@ -22,12 +23,12 @@ NetworkDescription two_scales() {
 constexpr Edges circular{Padding::circular, Padding::circular};
 
 // One description, its filters and the terms of one exemplar.
-struct Features {
-  Features(const at::Tensor& exemplar, NeuralParams params, Edges exemplar_edges = circular)
+struct Seen {
+  Seen(const at::Tensor& exemplar, NeuralParams params, Edges exemplar_edges = circular)
       : description(two_scales()),
         network(make(description)),
-        terms(params, {network, description, {{1, 0.5}}}, exemplar, exemplar_edges, circular,
-              Random(1)) {}
+        terms({network, description, {{1, 0.5}}}, feature_terms(params, exemplar), exemplar,
+              exemplar_edges, circular) {}
 
   static Network make(const NetworkDescription& description) {
     const auto shapes = filter_shapes(description, 3);
@@ -49,12 +50,12 @@ struct Features {
 
   NetworkDescription description;
   Network network;
-  NetworkTerms terms;
+  Features terms;
 };
 
 TEST(SlicedFeatures, ZeroForTheExemplarItselfAndItsShifts) {
   const at::Tensor exemplar = numbers({3, 16, 24}, 1);
-  Features f(exemplar, Features::settings(8));
+  Seen f(exemplar, Seen::settings(8));
   for (const std::uint64_t step : {0, 5}) {
     EXPECT_LT(f.value(exemplar, step), 1e-6);
     EXPECT_LT(f.value(at::roll(exemplar, {2, 6}, {1, 2}).contiguous(), step), 1e-5);
@@ -66,10 +67,10 @@ TEST(SlicedFeatures, ZeroForTheExemplarItselfAndItsShifts) {
 TEST(SlicedFeatures, AreTheDistanceOfSortedProjections) {
   const at::Tensor exemplar = numbers({3, 12, 10}, 1), picture = numbers({3, 12, 10}, 2);
   const std::uint64_t step = 3;
-  Features f(exemplar, Features::settings(5));
+  Seen f(exemplar, Seen::settings(5));
   const auto sorted = [&](const FeatureMaps& maps, std::uint64_t map, int direction,
                           std::uint64_t at_step) {
-    Random random = Random(1).stream(at_step).stream(map);
+    Random random = Random(1).stream(0).stream(at_step).stream(map);
     std::vector<double> d(4);
     for (int skipped = 0; skipped <= direction; ++skipped)
       for (double& v : d) v = static_cast<double>(random.normal());
@@ -110,7 +111,7 @@ TEST(SlicedFeatures, GradientMatchesFiniteDifferences) {
   const at::Tensor exemplar = numbers({3, 16, 18}, 1);
   // Stronger than the exemplar: few values are near the ones that they go to, where W₁ bends.
   const at::Tensor picture = 4 * numbers({3, 14, 20}, 2);
-  Features f(exemplar, Features::settings(16), {Padding::reflect, Padding::reflect});
+  Seen f(exemplar, Seen::settings(16), {Padding::reflect, Padding::reflect});
   at::Tensor gradient = at::zeros_like(picture);
   f.terms.add(picture, 1, gradient);
   for (std::uint64_t trial = 0; trial < 4; ++trial) {
@@ -125,14 +126,14 @@ TEST(SlicedFeatures, GradientMatchesFiniteDifferences) {
 
 TEST(SlicedFeatures, StepsHaveDirectionsOfTheirOwn) {
   const at::Tensor exemplar = numbers({3, 12, 12}, 1), picture = numbers({3, 12, 12}, 2);
-  Features f(exemplar, Features::settings(4));
+  Seen f(exemplar, Seen::settings(4));
   const double first = f.value(picture, 0);
   EXPECT_NE(first, f.value(picture, 1));
   EXPECT_EQ(first, f.value(picture, 0));
 }
 
 TEST(SlicedFeatures, AFlatExemplarAsksForNothing) {
-  Features f(at::full({3, 12, 12}, 0.4f), Features::settings(4));
+  Seen f(at::full({3, 12, 12}, 0.4f), Seen::settings(4));
   EXPECT_EQ(f.value(numbers({3, 12, 12}, 2)), 0);
 }
 

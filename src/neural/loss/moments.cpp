@@ -1,10 +1,9 @@
-#include "neural/loss/statistics.h"
+#include "neural/loss/moments.h"
 
 #include <torch/csrc/autograd/custom_function.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <tuple>
 
 #include "neural/resample.h"
 
@@ -14,13 +13,13 @@ namespace {
 
 constexpr std::int64_t positions_at_once = 1 << 15;
 
-// Calls f(first row, rows) for stripes of a few ten thousand positions: a copy of all maps in rows
+// Calls f(first row, rows) for rows of a few ten thousand positions: a copy of all maps in rows
 // would be as large as the maps.
 template <class F>
-void for_each_stripe(const at::Tensor& data, F&& f) {
+void for_a_few_rows(const at::Tensor& data, F&& f) {
   const std::int64_t height = data.size(1);
-  const std::int64_t stripe = std::max<std::int64_t>(1, positions_at_once / data.size(2));
-  for (std::int64_t y = 0; y < height; y += stripe) f(y, std::min(stripe, height - y));
+  const std::int64_t rows = std::max<std::int64_t>(1, positions_at_once / data.size(2));
+  for (std::int64_t y = 0; y < height; y += rows) f(y, std::min(rows, height - y));
 }
 
 at::Tensor rows_of(const at::Tensor& data, std::int64_t channels, std::int64_t y,
@@ -38,7 +37,7 @@ struct MomentsFunction : torch::autograd::Function<MomentsFunction> {
     context->saved_data["positions"] = positions;
     at::Tensor gram = at::zeros({channels, channels}, data.options());
     at::Tensor mean = at::zeros({channels}, data.options());
-    for_each_stripe(data, [&](std::int64_t y, std::int64_t count) {
+    for_a_few_rows(data, [&](std::int64_t y, std::int64_t count) {
       const at::Tensor rows = rows_of(data, channels, y, count);
       gram.addmm_(rows.t(), rows);
       mean.add_(rows.sum(0));
@@ -54,7 +53,7 @@ struct MomentsFunction : torch::autograd::Function<MomentsFunction> {
     const double positions = context->saved_data["positions"].toDouble();
     const at::Tensor of_gram = gradients[0] + gradients[0].t();
     at::Tensor result = at::empty_like(data);
-    for_each_stripe(data, [&](std::int64_t y, std::int64_t count) {
+    for_a_few_rows(data, [&](std::int64_t y, std::int64_t count) {
       const at::Tensor of_rows = at::addmm(gradients[1], rows_of(data, channels, y, count), of_gram,
                                            1 / positions, 1 / positions);
       // Back into blocks: the transpose of to_rows().
@@ -77,14 +76,14 @@ double positions(std::int64_t height, std::int64_t width) {
   return static_cast<double>(height) * static_cast<double>(width);
 }
 
-FeatureMaps rows_of(const Band& band, Rows rows) {
-  return {take_rows(band, rows, Padding::circular), band.channels};
+FeatureMaps rows_of(const HeldRows& maps, Rows rows) {
+  return {take_rows(maps, rows, Padding::circular), maps.channels};
 }
 
 // Products of rows `own` of maps with the same maps shifted by (dy, dx) positions, dy ≥ 0.
-at::Tensor shifted_products(const Band& band, Rows own, std::int64_t dy, std::int64_t dx,
+at::Tensor shifted_products(const HeldRows& maps, Rows own, std::int64_t dy, std::int64_t dx,
                             Tile tile) {
-  std::int64_t height = band.height, width = band.data.size(2), first = 0;
+  std::int64_t height = maps.height, width = maps.data.size(2), first = 0;
   if (!tiles_y(tile)) {
     height -= dy;
     own.end = std::min(own.end, height);
@@ -93,29 +92,29 @@ at::Tensor shifted_products(const Band& band, Rows own, std::int64_t dy, std::in
     width -= std::abs(dx);
     first = std::max<std::int64_t>(-dx, 0);
   }
-  if (own.empty()) return at::zeros({band.channels, band.channels}, band.data.options());
+  if (own.empty()) return at::zeros({maps.channels, maps.channels}, maps.data.options());
   const auto matrix = [&](at::Tensor data) {
-    return to_rows({data.narrow(2, first, width), band.channels});
+    return to_rows({data.narrow(2, first, width), maps.channels});
   };
-  const at::Tensor there = rows_of(band, {own.begin + dy, own.end + dy}).data;
-  return at::mm(matrix(rows_of(band, own).data).t(), matrix(at::roll(there, {-dx}, {2}))) /
+  const at::Tensor there = rows_of(maps, {own.begin + dy, own.end + dy}).data;
+  return at::mm(matrix(rows_of(maps, own).data).t(), matrix(at::roll(there, {-dx}, {2}))) /
          positions(height, width);
 }
 
 bool has_shift(Size size, int d) { return std::min(size.height, size.width) >= 2 * d; }
 
-void add_shifted(const Band& band, Rows own, std::int64_t first, Tile tile,
+void add_shifted(const HeldRows& maps, Rows own, std::int64_t first, Tile tile,
                  const std::vector<int>& shifts, std::vector<Moments::Shifted>& shifted) {
   for (const int d : shifts) {
-    if (!has_shift(band.size(), d)) continue;
+    if (!has_shift(maps.size(), d)) continue;
     for (const auto& [dy, dx] : {std::pair{0, d}, {d, 0}, {d, d}, {d, -d}})
-      shifted.push_back({first, dy, dx, shifted_products(band, own, dy, dx, tile)});
+      shifted.push_back({first, dy, dx, shifted_products(maps, own, dy, dx, tile)});
   }
 }
 
-Moments own_moments(const Band& band, Rows own) {
-  auto result = MomentsFunction::apply(rows_of(band, own).data, band.channels,
-                                       positions(band.height, band.data.size(2)));
+Moments own_moments(const HeldRows& maps, Rows own) {
+  auto result = MomentsFunction::apply(rows_of(maps, own).data, maps.channels,
+                                       positions(maps.height, maps.data.size(2)));
   return {result[0], result[1], {}};
 }
 
@@ -136,15 +135,15 @@ std::vector<Rows> rows_for_moments(const std::vector<Size>& sizes, const std::ve
   return result;
 }
 
-Moments moments(const std::vector<Band>& scales, const std::vector<Rows>& own, Tile tile,
+Moments moments(const std::vector<HeldRows>& scales, const std::vector<Rows>& own, Tile tile,
                 const std::vector<int>& shifts) {
   std::vector<Moments::Shifted> shifted;
-  std::vector<Band> finer;  // maps of finer scales, averaged to the present one's positions
+  std::vector<HeldRows> finer;  // maps of finer scales, averaged to the present one's positions
   std::vector<at::Tensor> means;
   std::vector<std::vector<at::Tensor>> blocks(scales.size());  // of the Gram matrix
   std::int64_t channels = 0;
   for (std::size_t k = 0; k < scales.size(); ++k) {
-    const Band& scale = scales[k];
+    const HeldRows& scale = scales[k];
     add_shifted(scale, own[k], channels, tile, shifts, shifted);
     channels += scale.channels;
     const Moments alone = own_moments(scale, own[k]);
@@ -167,57 +166,13 @@ Moments moments(const std::vector<Band>& scales, const std::vector<Rows>& own, T
 }
 
 Moments moments(const Scales& scales, Tile tile, const std::vector<int>& shifts) {
-  std::vector<Band> bands;
+  std::vector<HeldRows> all;
   std::vector<Rows> own;
   for (const auto& maps : scales) {
     own.push_back({0, maps.height()});
-    bands.push_back({maps.data, maps.channels, own.back(), maps.height()});
+    all.push_back({maps.data, maps.channels, own.back(), maps.height()});
   }
-  return moments(bands, own, tile, shifts);
-}
-
-GramTarget::GramTarget(const Moments& exemplar, const GramOptions& options) : options_(options) {
-  const c10::NoGradGuard no_gradients;
-  const auto channels = static_cast<double>(exemplar.mean.size(0));
-  mean_ = options.centre ? exemplar.mean.clone() : at::zeros_like(exemplar.mean);
-  inverse_deviation_ = at::ones_like(mean_);
-  if (options.standardise) {
-    const at::Tensor second = exemplar.gram.diagonal();
-    // Rounding of E[f²] − E[f]² leaves noise where a map is flat: such a map is left out.
-    const at::Tensor variance = second - mean_ * mean_;
-    inverse_deviation_ = at::where(variance > second * 1e-6, variance.clamp_min(1e-30).rsqrt(),
-                                   at::zeros_like(mean_));
-  }
-  gram_ = transformed(exemplar.gram, exemplar, 0);
-  double nothing = gram_.square().sum().item<double>();
-  for (const auto& [first, dy, dx, products] : exemplar.shifted) {
-    shifted_.push_back({first, dy, dx, transformed(products, exemplar, first)});
-    nothing += shifted_.back().products.square().sum().item<double>();
-  }
-  scale_ = options.normalise ? (nothing > 0 ? 1 / nothing : 0) : 1 / (4 * channels * channels);
-}
-
-at::Tensor GramTarget::transformed(const at::Tensor& products, const Moments& m,
-                                   std::int64_t first) const {
-  const auto own = [&](const at::Tensor& of_all) {
-    return of_all.narrow(0, first, products.size(0));
-  };
-  const at::Tensor mean = own(mean_), scale = own(inverse_deviation_);
-  const at::Tensor cross = at::outer(mean, own(m.mean));
-  const at::Tensor centred = products - cross - cross.t() + at::outer(mean, mean);
-  return centred * at::outer(scale, scale);
-}
-
-at::Tensor GramTarget::distance(const Moments& result) const {
-  at::Tensor error = (transformed(result.gram, result, 0) - gram_).square().sum();
-  for (const auto& own : result.shifted)  // those that both pictures are large enough for
-    for (const auto& goal : shifted_)
-      if (std::tie(own.first, own.dy, own.dx) == std::tie(goal.first, goal.dy, goal.dx))
-        error =
-            error + (transformed(own.products, result, own.first) - goal.products).square().sum();
-  if (options_.centre)
-    error = error + 2 * ((result.mean - mean_) * inverse_deviation_).square().sum();
-  return error * scale_;
+  return moments(all, own, tile, shifts);
 }
 
 }  // namespace gramloom::neural

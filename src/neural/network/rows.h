@@ -21,11 +21,11 @@ constexpr std::int64_t floor_divided(std::int64_t n, std::int64_t d) {
 }
 /// The least rows that hold both; empty rows hold nothing.
 Rows hull(Rows a, Rows b);
-/// Part `i` of `count` rows shared out among `parts`.
-Rows part_of(std::int64_t count, std::int64_t i, std::int64_t parts);
+/// Share `i` of `count` rows shared out among `shares`.
+Rows share_of(std::int64_t count, std::int64_t i, std::int64_t shares);
 
 /// Some rows, across the whole width, of a picture or of feature maps that are `height` rows high.
-struct Band {
+struct HeldRows {
   at::Tensor data;  // (channels, rows, width), or FeatureMaps::data
   std::int64_t channels = 0;
   Rows rows;
@@ -39,7 +39,7 @@ struct Band {
 };
 
 /// All rows of a picture (channels, height, width).
-Band whole_band(const at::Tensor& picture);
+HeldRows all_rows(const at::Tensor& picture);
 
 /// Which of the held rows row `row` is, around a circle of `height` rows; counted from held.begin.
 std::int64_t held_copy(std::int64_t row, Rows held, std::int64_t height);
@@ -47,7 +47,7 @@ std::int64_t held_copy(std::int64_t row, Rows held, std::int64_t height);
 /// The rows that rows `wanted` are made of, given what lies beyond the edges. Around a circle that
 /// is no more than all of them.
 Rows rows_behind(Rows wanted, std::int64_t height, Padding padding);
-/// Rows `wanted` of the band's data; it has at least rows_behind() them.
-at::Tensor take_rows(const Band& band, Rows wanted, Padding padding);
+/// Rows `wanted` of these; at least rows_behind() them are known.
+at::Tensor take_rows(const HeldRows& known, Rows wanted, Padding padding);
 
 }  // namespace gramloom::neural

@@ -1,7 +1,7 @@
-#include "neural/loss/statistics.h"
-
+// Moments of feature maps, and how Gram matrices are compared.
 #include <gtest/gtest.h>
 
+#include "neural/loss/gram_target.h"
 #include "tensors.h"
 
 namespace gramloom::neural {
@@ -55,7 +55,7 @@ TEST(GramTarget, IsThePapersErrorWhenNothingIsAsked) {
   const at::Tensor a = f.view({5, 24}), b = g.view({5, 24});
   const double expected =
       (at::mm(a, a.t()) - at::mm(b, b.t())).square().sum().item<double>() / (4.0 * 25 * 24 * 24);
-  const GramTarget target(moments(to_maps(f)), {false, false, false, {}});
+  const GramTarget target(moments(to_maps(f)), {1, false, false, false, {}});
   EXPECT_NEAR(target.distance(moments(to_maps(g))).item<double>(), expected, 1e-12 * expected);
 }
 
@@ -70,7 +70,7 @@ TEST(GramTarget, CentredAndStandardisedIsThatOfTheTransformedMaps) {
   };
   const at::Tensor own = with_constant(f), other = with_constant(g);
   const double expected = (own - other).square().sum().item<double>() / (4 * 16);
-  const GramTarget target(moments(to_maps(f)), {false, true, true, {}});
+  const GramTarget target(moments(to_maps(f)), {1, false, true, true, {}});
   EXPECT_NEAR(target.distance(moments(to_maps(g))).item<double>(), expected, 1e-9 * expected);
 }
 
@@ -78,7 +78,7 @@ TEST(GramTarget, ZeroAtTheExemplarItselfAndOneAtNothing) {
   for (const bool centre : {false, true})
     for (const bool standardise : {false, true}) {
       const Moments m = moments(to_maps(numbers({8, 6, 6}, 7, at::kDouble)));
-      const GramTarget target(m, {true, centre, standardise, {}});
+      const GramTarget target(m, {1, true, centre, standardise, {}});
       EXPECT_NEAR(target.distance(m).item<double>(), 0, 1e-20);
       // Maps that are flat at the exemplar's means (or zero) have no centred Gram matrix.
       const at::Tensor flat = centre ? m.mean : at::zeros_like(m.mean);
@@ -88,7 +88,7 @@ TEST(GramTarget, ZeroAtTheExemplarItselfAndOneAtNothing) {
 
 TEST(GramTarget, FlatMapsOfTheExemplarMakeNoInfinity) {
   const FeatureMaps flat = to_maps(at::full({3, 4, 4}, 2.0f));
-  const GramTarget target(moments(flat), {true, true, true, {}});
+  const GramTarget target(moments(flat), {1, true, true, true, {}});
   const double error = target.distance(moments(to_maps(numbers({3, 4, 4}, 8)))).item<double>();
   EXPECT_TRUE(std::isfinite(error));
 }
@@ -140,15 +140,15 @@ TEST(GramTarget, ComparesShiftedProductsLikeTheOthers) {
   const auto of = [](const at::Tensor& planes) {
     return moments({to_maps(planes)}, Tile::both, {1});
   };
-  const GramTarget plain(of(map), {false, false, false, {1}});
+  const GramTarget plain(of(map), {1, false, false, false, {1}});
   const double squares = 7.5 * 7.5 + 7 * 7 + 5.5 * 5.5 + 5 * 5 + 5 * 5;
   EXPECT_NEAR(plain.distance(of(at::zeros_like(map))).item<double>(), squares / 4, 1e-9);
   EXPECT_NEAR(plain.distance(of(2 * map)).item<double>(), 9 * squares / 4, 1e-9);
   // Centred at 2.5: 1.25, and 0.75, −0.75, −1.25, −1.25; by the deviation, 1 and ±0.6, −1, −1.
-  const GramTarget standardised(of(map), {false, true, true, {1}});
+  const GramTarget standardised(of(map), {1, false, true, true, {1}});
   EXPECT_NEAR(standardised.distance(of(at::full_like(map, 2.5))).item<double>(),
               (1 + 2 * 0.36 + 2) / 4, 1e-9);
-  const GramTarget normalised(of(map), {true, true, true, {1}});
+  const GramTarget normalised(of(map), {1, true, true, true, {1}});
   EXPECT_NEAR(normalised.distance(of(at::full_like(map, 2.5))).item<double>(), 1, 1e-9);
 }
 
@@ -156,7 +156,7 @@ TEST(GramTarget, WithShiftsZeroAtTheExemplarItselfAndItsShifts) {
   const at::Tensor planes = numbers({6, 9, 8}, 7, at::kDouble) + 1;
   for (const bool centre : {false, true}) {
     const auto of = [](const at::Tensor& p) { return moments({to_maps(p)}, Tile::both, {1, 3}); };
-    const GramTarget target(of(planes), {true, centre, true, {1, 3}});
+    const GramTarget target(of(planes), {1, true, centre, true, {1, 3}});
     EXPECT_NEAR(target.distance(of(planes)).item<double>(), 0, 1e-20);
     EXPECT_NEAR(target.distance(of(at::roll(planes, {2, 5}, {1, 2}))).item<double>(), 0, 1e-20);
     // The Gram matrix of maps shuffled alike is the same; what lies beside what is not.

@@ -1,10 +1,11 @@
-// A picture looked at in bands of rows has the same maps, statistics and gradients as a whole one.
-#include "neural/network/bands.h"
+// A picture looked at a few rows at a time has the same maps, statistics and gradients as a whole
+// one.
+#include "neural/network/rows.h"
 
 #include <gtest/gtest.h>
 
+#include "feature_terms.h"
 #include "networks.h"
-#include "neural/loss/network_terms.h"
 #include "neural/resample.h"
 #include "tensors.h"
 
@@ -37,7 +38,7 @@ NetworkDescription bank() {
 TEST(TakeRows, GoOnBeyondTheEdges) {
   const at::Tensor rows = at::arange(4, at::kDouble).view({1, 4, 1});
   const auto taken = [&](Rows wanted, Padding padding) {
-    const at::Tensor t = take_rows(whole_band(rows), wanted, padding).flatten();
+    const at::Tensor t = take_rows(all_rows(rows), wanted, padding).flatten();
     return std::vector<double>(t.data_ptr<double>(), t.data_ptr<double>() + t.numel());
   };
   EXPECT_EQ(taken({-2, 6}, Padding::circular), (std::vector<double>{2, 3, 0, 1, 2, 3, 0, 1}));
@@ -52,15 +53,15 @@ TEST(TakeRows, SeeTheSameFromWhatTheyAreMadeOf) {
       for (std::int64_t end = begin + 1; end < 16; ++end) {
         if (end <= 0 || begin >= 9) continue;  // all of them beyond: nothing asks for that
         const Rows wanted{begin, end}, behind = rows_behind(wanted, 9, padding);
-        const Band part{take_rows(whole_band(whole), behind, padding), 2, behind, 9};
-        EXPECT_TRUE(at::equal(take_rows(part, wanted, padding),
-                              take_rows(whole_band(whole), wanted, padding)))
+        const HeldRows some{take_rows(all_rows(whole), behind, padding), 2, behind, 9};
+        EXPECT_TRUE(at::equal(take_rows(some, wanted, padding),
+                              take_rows(all_rows(whole), wanted, padding)))
             << to_word(padding) << " " << begin << " " << end;
       }
 }
 
 // Any rows of any layer, at odd sizes, are those of the whole picture's maps.
-TEST(Bands, HaveTheRowsOfTheWhole) {
+TEST(Rows, HaveTheRowsOfTheWhole) {
   for (const auto& description : {deep(), bank(), pyramid_network()})
     for (const auto padding : paddings) {
       if (padding == Padding::valid && description.name == "pyramid") continue;
@@ -70,41 +71,41 @@ TEST(Bands, HaveTheRowsOfTheWhole) {
       std::vector<std::size_t> all(description.layers.size());
       for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
       const auto maps = network(picture, edges, all);
-      const auto views = network.views(picture, edges);
-      for (std::size_t k = 0; k < views.size(); ++k)
-        for (std::int64_t part = 0; part < 4; ++part) {
+      const auto scales = network.scales(picture, edges);
+      for (std::size_t k = 0; k < scales.size(); ++k)
+        for (std::int64_t share = 0; share < 4; ++share) {
           std::vector<Rows> rows;
           for (const std::size_t layer : all) {
-            rows.push_back(part_of(maps[layer][k].height(), part, 4));
+            rows.push_back(share_of(maps[layer][k].height(), share, 4));
             if (padding == Padding::circular) rows.back().begin -= 1;  // also across the edge
           }
-          const Rows behind = network.rows_of_view(size_of(views[k]), edges, all, rows);
-          const Band whole = whole_band(views[k]);
-          const auto bands = network.bands(
+          const Rows behind = network.rows_of_scale(size_of(scales[k]), edges, all, rows);
+          const HeldRows whole = all_rows(scales[k]);
+          const auto some = network.maps_of_rows(
               k, {take_rows(whole, behind, padding), 2, behind, whole.height}, edges, all, rows);
           for (const std::size_t layer : all) {
             const auto& own = maps[layer][k];
             const at::Tensor expected =
                 take_rows({own.data, own.channels, {0, own.height()}, own.height()}, rows[layer],
                           Padding::circular);
-            EXPECT_LT(relative_difference(bands[layer].data, expected), 1e-12)
-                << description.name << " " << to_word(padding) << " layer " << layer << " view "
-                << k << " part " << part;
+            EXPECT_LT(relative_difference(some[layer].data, expected), 1e-12)
+                << description.name << " " << to_word(padding) << " layer " << layer << " scale "
+                << k << " share " << share;
           }
         }
     }
 }
 
-TEST(Bands, ShrinkToTheRowsOfTheWhole) {
+TEST(Rows, ShrinkToTheRowsOfTheWhole) {
   for (const auto tile : {Tile::none, Tile::both}) {
     const at::Tensor data = numbers({1, 23, 10, 4}, 2, at::kDouble);
-    const Band whole{data, 4, {0, 23}, 23};
+    const HeldRows whole{data, 4, {0, 23}, 23};
     const at::Tensor all = shrink(whole, {5, 12}, {0, 12}, tile).data;
     for (std::int64_t begin = 0; begin < 12; ++begin)
       for (std::int64_t end = begin + 1; end <= 12; ++end) {
         const Rows behind = rows_to_shrink({begin, end}, 23, 12, tile);
-        const Band part{take_rows(whole, behind, Padding::circular), 4, behind, 23};
-        EXPECT_LT(relative_difference(shrink(part, {5, 12}, {begin, end}, tile).data,
+        const HeldRows some{take_rows(whole, behind, Padding::circular), 4, behind, 23};
+        EXPECT_LT(relative_difference(shrink(some, {5, 12}, {begin, end}, tile).data,
                                       all.narrow(1, begin, end - begin)),
                   1e-12);
       }
@@ -126,11 +127,11 @@ struct Evaluated {
 };
 Evaluated evaluate(const NetworkDescription& description, const NeuralParams& params,
                    const at::Tensor& exemplar, const at::Tensor& picture, Edges edges,
-                   std::int64_t positions_in_band) {
+                   std::int64_t positions_at_once) {
   const Network network = random_network(description, picture.scalar_type());
   const std::size_t last = description.layers.size() - 1;
-  NetworkTerms terms(params, {network, description, {{0, 1}, {last, 0.5}}}, exemplar,
-                     {Padding::reflect, Padding::reflect}, edges, Random(1), positions_in_band);
+  Features terms({network, description, {{0, 1}, {last, 0.5}}}, feature_terms(params, exemplar),
+                 exemplar, {Padding::reflect, Padding::reflect}, edges, positions_at_once);
   Evaluated result{{}, at::zeros_like(picture)};
   result.terms = terms.add(picture, 3, result.gradient);
   return result;
@@ -145,16 +146,16 @@ void expect_same(const Evaluated& a, const Evaluated& b, double tolerance) {
   EXPECT_LT(relative_difference(a.gradient, b.gradient), tolerance);
 }
 
-TEST(NetworkTerms, OfBandsAreThoseOfTheWhole) {
+TEST(Features, OfAFewRowsAtATimeAreThoseOfTheWhole) {
   const at::Tensor exemplar = numbers({2, 33, 30}, 1, at::kDouble);
   const at::Tensor picture = numbers({2, 57, 46}, 2, at::kDouble);
   for (const auto& description : {deep(), bank(), pyramid_network()})
     for (const auto padding : paddings)
       for (const auto& shifts : {std::vector<int>{}, std::vector<int>{1, 3}}) {
         if (padding == Padding::valid && description.name == "pyramid") continue;
-        const auto of = [&](std::int64_t positions_in_band) {
+        const auto of = [&](std::int64_t positions_at_once) {
           return evaluate(description, matched(1, 0, shifts), exemplar, picture, {padding, padding},
-                          positions_in_band);
+                          positions_at_once);
         };
         const auto whole = of(1 << 20);
         EXPECT_GT(whole.gradient.abs().max().item<double>(), 0);
@@ -163,14 +164,14 @@ TEST(NetworkTerms, OfBandsAreThoseOfTheWhole) {
 }
 
 // In float, and with the values that are sorted.
-TEST(NetworkTerms, OfBandsAreThoseOfTheWholeToFloatPrecision) {
+TEST(Features, OfAFewRowsAtATimeAreThoseOfTheWholeToFloatPrecision) {
   const at::Tensor exemplar = numbers({2, 33, 30}, 1), picture = numbers({2, 57, 46}, 2);
   for (const auto& description : {deep(), bank(), pyramid_network()})
     for (const auto padding : paddings) {
       if (padding == Padding::valid && description.name == "pyramid") continue;
-      const auto of = [&](std::int64_t positions_in_band) {
+      const auto of = [&](std::int64_t positions_at_once) {
         return evaluate(description, matched(0.7, 0.3, {2}), exemplar, picture, {padding, padding},
-                        positions_in_band);
+                        positions_at_once);
       };
       const auto whole = of(1 << 20);
       EXPECT_EQ(whole.terms.size(), 4u);
@@ -179,7 +180,7 @@ TEST(NetworkTerms, OfBandsAreThoseOfTheWholeToFloatPrecision) {
 }
 
 // Float maps, which oneDNN makes, of a picture in one piece are those of LibTorch in double.
-TEST(Bands, InFloatAreThoseInDouble) {
+TEST(Rows, InFloatAreThoseInDouble) {
   const at::Tensor picture = numbers({2, 57, 46}, 2);
   for (const auto& description : {deep(), bank()})
     for (const auto padding : paddings) {
@@ -194,12 +195,12 @@ TEST(Bands, InFloatAreThoseInDouble) {
 }
 
 // Shifts that the picture is large enough for and the exemplar is not are left out.
-TEST(NetworkTerms, OfAnExemplarTooSmallForTheShifts) {
+TEST(Features, OfAnExemplarTooSmallForTheShifts) {
   const at::Tensor exemplar = numbers({2, 16, 16}, 1, at::kDouble);
   const at::Tensor picture = numbers({2, 40, 40}, 2, at::kDouble);
-  const auto of = [&](std::int64_t positions_in_band) {
+  const auto of = [&](std::int64_t positions_at_once) {
     return evaluate(pyramid_network(), matched(1, 0, {3}), exemplar, picture,
-                    {Padding::circular, Padding::circular}, positions_in_band);
+                    {Padding::circular, Padding::circular}, positions_at_once);
   };
   const auto whole = of(1 << 20);
   EXPECT_GT(whole.terms[0].value, 0);

@@ -1,4 +1,4 @@
-#include "neural/network/bands.h"
+#include "neural/network/rows.h"
 
 #include <algorithm>
 
@@ -10,11 +10,11 @@ Rows hull(Rows a, Rows b) {
   return {std::min(a.begin, b.begin), std::max(a.end, b.end)};
 }
 
-Rows part_of(std::int64_t count, std::int64_t i, std::int64_t parts) {
-  return {count * i / parts, count * (i + 1) / parts};
+Rows share_of(std::int64_t count, std::int64_t i, std::int64_t shares) {
+  return {count * i / shares, count * (i + 1) / shares};
 }
 
-Band whole_band(const at::Tensor& picture) {
+HeldRows all_rows(const at::Tensor& picture) {
   return {picture, picture.size(0), {0, picture.size(1)}, picture.size(1)};
 }
 
@@ -31,25 +31,25 @@ Rows rows_behind(Rows wanted, std::int64_t height, Padding padding) {
           std::clamp<std::int64_t>(wanted.end, 1, height)};
 }
 
-at::Tensor take_rows(const Band& band, Rows wanted, Padding padding) {
-  const Rows held = band.rows;
-  if (wanted == held) return band.data;  // the gradient of a part would be filled up with zeros
+at::Tensor take_rows(const HeldRows& known, Rows wanted, Padding padding) {
+  const Rows held = known.rows;
+  if (wanted == held) return known.data;  // the gradient of a share would be filled up with zeros
   const auto inside = [&](Rows rows) {
-    return band.data.narrow(1, rows.begin - held.begin, rows.count());
+    return known.data.narrow(1, rows.begin - held.begin, rows.count());
   };
   if (wanted.begin >= held.begin && wanted.end <= held.end) return inside(wanted);
   if (padding == Padding::zero) {
-    const Rows known{std::max<std::int64_t>(wanted.begin, 0), std::min(wanted.end, band.height)};
-    std::vector<std::int64_t> zeros(static_cast<std::size_t>(2 * (band.data.dim() - 2)), 0);
-    zeros.insert(zeros.end(), {known.begin - wanted.begin, wanted.end - known.end});
-    return at::constant_pad_nd(inside(known), zeros);
+    const Rows inner{std::max<std::int64_t>(wanted.begin, 0), std::min(wanted.end, known.height)};
+    std::vector<std::int64_t> zeros(static_cast<std::size_t>(2 * (known.data.dim() - 2)), 0);
+    zeros.insert(zeros.end(), {inner.begin - wanted.begin, wanted.end - inner.end});
+    return at::constant_pad_nd(inside(inner), zeros);
   }
   std::vector<std::int64_t> from;
   for (std::int64_t row = wanted.begin; row < wanted.end; ++row)
     from.push_back(padding == Padding::circular
-                       ? held_copy(row, held, band.height)
-                       : source_of(row, band.height, padding) - held.begin);
-  return band.data.index_select(1, at::tensor(from, at::kLong));
+                       ? held_copy(row, held, known.height)
+                       : source_of(row, known.height, padding) - held.begin);
+  return known.data.index_select(1, at::tensor(from, at::kLong));
 }
 
 }  // namespace gramloom::neural
