@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -29,7 +30,15 @@ namespace gramloom {
 ///   };
 ///
 /// A parameter is a bool, int, double, std::string, std::filesystem::path (relative to the config),
-/// an enum with `enum_names`, or a std::vector of int, double or std::string.
+/// FileOrName, an enum with `enum_names`, or a std::vector of int, double or std::string.
+
+/// A file, or a bare word, without folder and extension, that the method looks up itself.
+struct FileOrName : std::filesystem::path {
+  using path::path;
+  FileOrName(std::filesystem::path file) : path(std::move(file)) {}
+
+  bool is_name() const { return !empty() && !has_parent_path() && !has_extension(); }
+};
 
 /// The words for an enum's values, in their order from 0; specialise it for each enum in a config.
 template <class E>

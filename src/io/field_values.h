@@ -45,6 +45,8 @@ std::string allowed_values(const Range& range) {
     return fmt::format("one of {}", fmt::join(enum_names<T>, ", "));
   } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
     return "a file";
+  } else if constexpr (std::is_same_v<T, FileOrName>) {
+    return "a name or a file";
   } else if constexpr (std::is_same_v<T, NamedFiles>) {
     return "a table of files: { name = \"file.png\" }";
   } else if constexpr (std::is_same_v<T, std::string>) {
@@ -70,9 +72,12 @@ nlohmann::ordered_json value_to_json(const T& value, const std::filesystem::path
   } else if constexpr (NamedEnum<T>) {
     return to_word(value);
   } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
-    if (!value.has_parent_path()) return value.generic_string();
+    if (value.empty()) return "";
     const auto from = std::filesystem::absolute(folder.empty() ? "." : folder).lexically_normal();
     return std::filesystem::absolute(value).lexically_proximate(from).generic_string();
+  } else if constexpr (std::is_same_v<T, FileOrName>) {
+    if (value.is_name()) return value.generic_string();
+    return value_to_json<std::filesystem::path>(value, folder);
   } else if constexpr (std::is_same_v<T, NamedFiles>) {
     auto files = nlohmann::ordered_json::object();
     for (const auto& [name, file] : value) files[name] = value_to_json(file, folder);

@@ -136,13 +136,19 @@ std::string read_string(const toml::node& node, const Slot& slot, const std::str
 
 fs::path read_path(const toml::node& node, const Slot& slot, const std::string& allowed) {
   const fs::path path = read_string(node, slot, allowed);
-  // A bare word is a name that the method looks up, and nothing stays nothing.
-  if (path.empty() || (!path.has_parent_path() && !path.has_extension())) return path;
+  if (path.empty()) return path;  // no file is wanted
   const fs::path file = (folder_of(slot.region) / path).lexically_normal();
   std::error_code ignored;
   if (!fs::exists(file, ignored)) fail(slot.region, "there is no file {}", file.string());
   if (!fs::is_regular_file(file, ignored)) fail(slot.region, "{} is not a file", file.string());
   return file;
+}
+
+FileOrName read_file_or_name(const toml::node& node, const Slot& slot, const std::string& allowed) {
+  const FileOrName word = read_string(node, slot, allowed);
+  if (word.is_name()) return word;
+  const FileOrName file = read_path(node, slot, allowed);
+  return file.is_name() ? FileOrName(fs::path(".") / file) : file;  // "./photo" stays a file
 }
 
 NamedFiles read_files(const toml::node& node, const Slot& slot, const std::string& allowed) {

@@ -56,6 +56,7 @@ double read_number(const toml::node& node, const Slot& slot, const std::string& 
 std::string read_string(const toml::node& node, const Slot& slot, const std::string& allowed);
 std::filesystem::path read_path(const toml::node& node, const Slot& slot,
                                 const std::string& allowed);
+FileOrName read_file_or_name(const toml::node& node, const Slot& slot, const std::string& allowed);
 NamedFiles read_files(const toml::node& node, const Slot& slot, const std::string& allowed);
 
 template <class T>
@@ -84,6 +85,8 @@ T read_value(const toml::node& node, const Slot& slot, const std::string& allowe
         index_of_word(read_string(node, slot, allowed), words, slot.key, slot.region));
   } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
     return read_path(node, slot, allowed);
+  } else if constexpr (std::is_same_v<T, FileOrName>) {
+    return read_file_or_name(node, slot, allowed);
   } else if constexpr (std::is_same_v<T, NamedFiles>) {
     return read_files(node, slot, allowed);
   } else if constexpr (std::is_same_v<T, std::string>) {

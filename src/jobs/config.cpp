@@ -6,6 +6,7 @@
 #include "io/text_file.h"
 #include "io/toml_reader.h"
 #include "jobs/method_reader.h"
+#include "jobs/names.h"
 #include "jobs/overrides.h"
 
 namespace gramloom {
@@ -14,44 +15,51 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t longest_name = 100;
-
-// A name becomes part of a path, on any file system.
-void check_name(const std::string& name, const toml::source_region& region) {
-  if (name.empty()) fail(region, "a name is empty");
-  const bool unfit = std::any_of(name.begin(), name.end(), [](char c) {
-    return static_cast<unsigned char>(c) < 32 ||
-           std::string_view("/\\:*?\"<>|").find(c) != std::string_view::npos;
-  });
-  if (unfit || name.front() == '.' || name.front() == ' ' || name.back() == ' ')
-    fail(region, "name '{}' is not fit for a file name", name);
-  if (name.size() > longest_name)
-    fail(region, "name is {} characters long, allowed are {}", name.size(), longest_name);
+// A method's name is a folder beside the files of its exemplar.
+bool is_file_of_exemplar(const std::string& name) {
+  return is_own_file(name, "exemplar") ||
+         (in_small_letters(name).starts_with("exemplar_") && fs::path(name).has_extension());
 }
 
-std::string read_name(const toml::table& table, std::set<std::string>& taken) {
+// An exemplar's name is a folder beside the files of the run.
+bool is_file_of_run(const std::string& name) {
+  return is_own_file(name, "run") || is_own_file(name, "scores") || is_own_file(name, "index") ||
+         is_own_file(name, "baseline");
+}
+
+[[noreturn]] void fail_taken(const std::string& name, const toml::source_region& region) {
+  fail(region, "the name '{}' is taken by a file of the run's own: choose another", name);
+}
+
+std::string read_name(const toml::table& table, NamesInUse& names) {
   const std::string name = required_text(table, "name");
   const toml::source_region& region = key_region(table, "name");
-  check_name(name, region);
-  if (!taken.insert(name).second) fail(region, "name '{}' is there twice", name);
+  check_name(name, longest_file_name, region);
+  names.add(name, region);
   return name;
+}
+
+void check_maps(const NamedFiles& maps, const toml::source_region& region) {
+  NamesInUse names;
+  for (const auto& [map, file] : maps) {
+    check_name(map, longest_map_name, region);
+    names.add(map, region);
+    if (file.empty()) fail(region, "the map '{}' has no file", map);
+  }
 }
 
 std::vector<ExemplarEntry> read_exemplars(toml::table& config) {
   std::vector<ExemplarEntry> exemplars;
-  std::set<std::string> names;
+  NamesInUse names;
   for (const toml::table* table : section(config, "exemplar")) {
     check_keys(*table, key_names<ExemplarEntry>({"name"}));
     ExemplarEntry exemplar;
     exemplar.name = read_name(*table, names);
+    if (is_file_of_run(exemplar.name)) fail_taken(exemplar.name, key_region(*table, "name"));
     exemplar.place = place(table->source());
     required_text(*table, "image");
     read_fields(exemplar, *table);
-    for (const auto& [map, file] : exemplar.maps) {
-      const toml::source_region& region = key_region(*table, "maps");
-      check_name(map, region);
-      if (file.empty()) fail(region, "the map '{}' has no file", map);
-    }
+    check_maps(exemplar.maps, key_region(*table, "maps"));
     exemplars.push_back(std::move(exemplar));
   }
   return exemplars;
@@ -59,11 +67,12 @@ std::vector<ExemplarEntry> read_exemplars(toml::table& config) {
 
 std::vector<MethodEntry> read_methods(toml::table& config) {
   std::vector<MethodEntry> methods;
-  std::set<std::string> names;
+  NamesInUse names;
   for (const toml::table* table : section(config, "method")) {
     MethodEntry method;
     method.method = read_method(*table);
     method.name = read_name(*table, names);
+    if (is_file_of_exemplar(method.name)) fail_taken(method.name, key_region(*table, "name"));
     method.place = place(table->source());
     methods.push_back(std::move(method));
   }
@@ -98,7 +107,7 @@ void check_whole(const Config& config, const toml::table& table) {
       std::any_of(config.methods.begin(), config.methods.end(),
                   [](const auto& method) { return !needs_exemplar(method.method); });
   for (const auto& exemplar : config.exemplars)
-    if (procedural && exemplar.name == procedural_folder)
+    if (procedural && in_small_letters(exemplar.name) == procedural_folder)
       throw ConfigError("{}: the name '{}' is taken by methods without an exemplar", exemplar.place,
                         exemplar.name);
 }

@@ -22,30 +22,37 @@ void assign(toml::table& table, std::string_view key, std::string_view value,
   table.insert(found->first, std::move(found->second));
 }
 
-// The table of `tables` whose name is `name`.
-toml::table& named_table(const std::vector<toml::table*>& tables, std::string_view kind,
-                         const std::string& name, const std::string& option) {
+std::string name_of(const toml::table& table) { return table["name"].value_or(std::string()); }
+
+// Says which names there are in place of that in "method.NAME.key=value".
+[[noreturn]] void fail_unknown_name(toml::table& config, std::string_view kind,
+                                    const std::string& name, const std::string& option) {
   std::vector<std::string> names;
-  for (toml::table* table : tables) {
-    names.push_back((*table)["name"].value_or(std::string()));
-    if (names.back() == name) return *table;
-  }
+  for (const toml::table* table : section(config, kind)) names.push_back(name_of(*table));
   const std::string guess = closest_word(name, names);
   throw ConfigError("--set {}: no {} is called '{}' ({})", option, kind, name,
                     guess.empty() ? fmt::format("there are {}", fmt::join(names, ", "))
                                   : fmt::format("did you mean '{}'?", guess));
 }
 
-// "method.NAME.key": into one table of a section; a name may have dots. False: not of this form.
-bool assign_in_section(toml::table& config, std::string_view kind, const std::string& path,
-                       std::string_view value, const std::string& option) {
+// "method.NAME.key=value": into one table of a section. A name may have dots and equals signs, a
+// key has neither. False: not of this form.
+bool assign_in_section(toml::table& config, std::string_view kind, const std::string& option) {
+  if (!option.starts_with(fmt::format("{}.", kind))) return false;
+  for (toml::table* table : section(config, kind)) {
+    const std::string before_key = fmt::format("{}.{}.", kind, name_of(*table));
+    const std::size_t equals = option.find('=', before_key.size());
+    if (!option.starts_with(before_key) || equals == std::string::npos) continue;
+    const std::string key = option.substr(before_key.size(), equals - before_key.size());
+    if (key.find('.') != std::string::npos) continue;
+    assign(*table, key, option.substr(equals + 1), option);
+    return true;
+  }
+  const std::string path = option.substr(0, option.find('='));
   const std::size_t first = path.find('.');
   const std::size_t last = path.rfind('.');
-  if (path.substr(0, first) != kind || first == last) return false;
-  const std::string name = path.substr(first + 1, last - first - 1);
-  assign(named_table(section(config, kind), kind, name, option), path.substr(last + 1), value,
-         option);
-  return true;
+  if (first == last) return false;
+  fail_unknown_name(config, kind, path.substr(first + 1, last - first - 1), option);
 }
 
 // "baseline.key": into that table. False: not of this form.
@@ -106,8 +113,8 @@ void apply_override(toml::table& config, const std::string& option) {
   const std::string value = option.substr(equals + 1);
   if (contains(config_keys(), key))
     assign(config, key, value, option);
-  else if (!assign_in_section(config, "method", key, value, option) &&
-           !assign_in_section(config, "exemplar", key, value, option) &&
+  else if (!assign_in_section(config, "method", option) &&
+           !assign_in_section(config, "exemplar", option) &&
            !assign_in_baseline(config, key, value, option))
     assign_in_methods(config, key, value, option);
 }

@@ -1,10 +1,9 @@
 #include "jobs/plan.h"
 
-#include <fnmatch.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "jobs/pattern.h"
 #include "jobs/settings.h"
 #include "metrics/scores.h"
 
@@ -79,10 +78,8 @@ std::string job_name(const Config& config, const Job& job) {
 }
 
 bool job_matches(const std::string& pattern, const std::string& job) {
-  const auto match = [&](const std::string& text) {
-    return fnmatch(pattern.c_str(), text.c_str(), 0) == 0;
-  };
-  return pattern.empty() || match(job.substr(0, job.rfind('/'))) || match(job);
+  return pattern.empty() || matches(pattern, job.substr(0, job.rfind('/'))) ||
+         matches(pattern, job);
 }
 
 Plan make_plan(const Config& config, const std::string& only) {
@@ -105,8 +102,10 @@ Plan make_plan(const Config& config, const std::string& only) {
   }
   if (std::none_of(plan.jobs.begin(), plan.jobs.end(),
                    [](const auto& planned) { return planned.selected; }))
-    throw ConfigError("--only {}: no job of {} matches; they are called like {}", only,
-                      config.file.string(), plan.jobs.front().name);
+    throw ConfigError(
+        "--only {}: no job of {} matches (* stands for any letters, ? for one, all else for "
+        "itself); they are called like {}",
+        only, config.file.string(), plan.jobs.front().name);
   return plan;
 }
 

@@ -26,7 +26,7 @@ std::string job_folder(const Config& config, const Job& job);
 /// "pebbles/quilting/seed1": the job's name, and its files without their extension.
 std::string job_name(const Config& config, const Job& job);
 
-/// Whether "exemplar/method/seedN", or its "exemplar/method", matches a pattern of * and ?; an
+/// Whether "exemplar/method/seedN", or its "exemplar/method", matches a pattern (see pattern.h); an
 /// empty pattern matches all.
 bool job_matches(const std::string& pattern, const std::string& job);
 

@@ -20,14 +20,17 @@ Json fields_to_json(const Struct& value, const fs::path& folder) {
   return json;
 }
 
+bool is_name(const fs::path&) { return false; }
+bool is_name(const FileOrName& value) { return value.is_name(); }
+
 // The content of every file that the method's parameters name.
 Json hashes_of_files(const Method& method) {
   Json hashes = Json::object();
   std::visit(
       [&](const auto& params) {
         for_each_parameter(params, [&]<class T>(const auto& field, const T& value) {
-          if constexpr (std::is_same_v<T, fs::path>)
-            if (std::error_code ignored; fs::is_regular_file(value, ignored))
+          if constexpr (std::is_base_of_v<fs::path, T>)
+            if (std::error_code ignored; !is_name(value) && fs::is_regular_file(value, ignored))
               hashes[std::string(field.name)] = file_hash(value);
         });
       },
@@ -77,7 +80,8 @@ Json job_settings(const Config& config, const Plan& plan, const Job& job) {
   settings["tile"] = value_to_json(config.tile, {});
   settings["format"] = value_to_json(config.format, {});
   settings["pixel_type"] = value_to_json(config.pixel_type, {});
-  return settings;
+  // As a record will hold it: a name may have bytes that are no UTF-8.
+  return Json::parse(settings.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 Json config_to_json(const Config& config) {

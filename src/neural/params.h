@@ -50,7 +50,7 @@ struct NeuralParams : LossParams {
 
   int directions = 32;
 
-  std::filesystem::path network = "multiscale";
+  FileOrName network = "multiscale";
   std::filesystem::path weights;
   RandomWeights random_weights = RandomWeights::he_normal;
   int weights_seed = 1;

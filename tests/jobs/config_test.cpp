@@ -146,8 +146,57 @@ TEST_F(ConfigText, NamesThatAreNotFitForFiles) {
   for (const std::string name : {"'a/b'", "'..'", "'.hidden'", "'a\\b'", "\"a\\u0000b\"",
                                  "\"a\\nb\"", "'a*'", "' a'", "''", "5"})
     EXPECT_TRUE(with_name(name).starts_with("a.toml:4:1: ")) << name << ": " << with_name(name);
-  EXPECT_TRUE(with_name("'" + std::string(101, 'a') + "'").starts_with("a.toml:4:1: "));
   EXPECT_EQ(with_name("'brick wall, größer'"), "");
+  EXPECT_EQ(with_name("'100% [a] #1 {b} = (c)'"), "");
+}
+
+TEST_F(ConfigText, NamesAreAsLongAsTheDiskTakesThem) {
+  const auto with_name = [&](const std::string& name) {
+    return complaint("[[method]]\nkind = 'procedural'\ntexture = 'noise'\nname = '" + name + "'\n");
+  };
+  const auto with_map = [&](const std::string& name) {
+    return complaint(exemplar + "maps = { '" + name + "' = 'e.png' }\n" + quilting);
+  };
+  const auto repeated = [](const std::string& letter, int times) {
+    std::string text;
+    for (int i = 0; i < times; ++i) text += letter;
+    return text;
+  };
+  EXPECT_EQ(with_name(std::string(255, 'a')), "");
+  EXPECT_EQ(with_name(std::string(256, 'a')),
+            "a.toml:4:1: name is 256 bytes long, allowed are 255");
+  EXPECT_EQ(with_name(repeated("石", 85)), "");
+  EXPECT_EQ(with_name(repeated("石", 86)), "a.toml:4:1: name is 258 bytes long, allowed are 255");
+  EXPECT_EQ(with_map(std::string(236, 'a')), "");
+  EXPECT_EQ(with_map(std::string(237, 'a')), "a.toml:4:1: name is 237 bytes long, allowed are 236");
+}
+
+TEST_F(ConfigText, NamesOfOurOwnFilesAreTaken) {
+  const auto with_exemplar = [&](const std::string& name) {
+    return complaint("[[exemplar]]\nname = '" + name + "'\nimage = 'e.png'\n" + quilting);
+  };
+  const auto with_method = [&](const std::string& name) {
+    return complaint(exemplar + "[[method]]\nname = '" + name + "'\nkind = 'quilting'\n");
+  };
+  const std::string taken = " is taken by a file of the run's own: choose another";
+  for (const std::string name : {"run", "index", "scores", "baseline", "run.json", "Run.JSON",
+                                 "index.html", "scores.csv", "SCORES.csv", "baseline.json"})
+    EXPECT_EQ(with_exemplar(name), "a.toml:2:1: the name '" + name + "'" + taken);
+  for (const std::string name : {"exemplar", "exemplar.png", "Exemplar.tif", "exemplar_height.exr"})
+    EXPECT_EQ(with_method(name), "a.toml:5:1: the name '" + name + "'" + taken);
+  EXPECT_EQ(with_exemplar("runs") + with_exemplar("exemplar") + with_method("run"), "");
+  EXPECT_EQ(complaint(noise + "[[exemplar]]\nname = 'Procedural'\nimage = 'e.png'\n"),
+            "a.toml:5:1: the name 'Procedural' is taken by methods without an exemplar");
+}
+
+TEST_F(ConfigText, NamesThatDifferInCapitalsAlone) {
+  const std::string alone = " differ in capitals alone, which some disks don't tell apart";
+  EXPECT_EQ(complaint(exemplar + "[[exemplar]]\nname = 'E'\nimage = 'e.png'\n" + quilting),
+            "a.toml:5:1: names 'e' and 'E'" + alone);
+  EXPECT_EQ(complaint(exemplar + quilting + "[[method]]\nname = 'Q'\nkind = 'quilting'\n"),
+            "a.toml:8:1: names 'q' and 'Q'" + alone);
+  EXPECT_EQ(complaint(exemplar + "maps = { h = 'e.png', H = 'e.png' }\n" + quilting),
+            "a.toml:4:1: names 'H' and 'h'" + alone);
 }
 
 TEST_F(ConfigText, NamesAndSeedsThatAreThereTwice) {
@@ -164,6 +213,34 @@ TEST_F(ConfigText, FilesThatAreNotThere) {
             "a.toml:3:1: there is no file no.png");
   EXPECT_EQ(complaint("[[exemplar]]\nname = 'e'\nimage = './'\n" + quilting),
             "a.toml:3:1:  is not a file");
+}
+
+// "photo" is a file like any other; only `network` may be a name.
+TEST_F(ConfigText, ABareWordIsAFileBesideTheConfig) {
+  fs::copy_file(folder_ / "e.png", folder_ / "photo");
+  const std::string maps = "maps = { height = 'photo' }\n";
+  const Config config = parse("[[exemplar]]\nname = 'e'\nimage = 'photo'\n" + maps +
+                              "[[method]]\nname = 'm'\nkind = 'neural'\nstart = 'photo'\n"
+                              "preset = 'gatys'\nweights = 'photo'\nnetwork = 'vgg19'\n");
+  EXPECT_EQ(config.exemplars[0].image, folder_ / "photo");
+  EXPECT_EQ(config.exemplars[0].maps.at("height"), folder_ / "photo");
+  const auto& params = std::get<NeuralParams>(config.methods[0].method);
+  EXPECT_EQ(params.start, folder_ / "photo");
+  EXPECT_EQ(params.weights, folder_ / "photo");
+  EXPECT_TRUE(params.network.is_name());
+  EXPECT_EQ(method_to_json(params, folder_)["start"], "photo");
+
+  EXPECT_EQ(complaint("[[exemplar]]\nname = 'e'\nimage = 'nothing'\n" + quilting),
+            "a.toml:3:1: there is no file nothing");
+  EXPECT_EQ(complaint(exemplar + "maps = { height = 'nothing' }\n" + quilting),
+            "a.toml:4:10: there is no file nothing");
+  for (const std::string key : {"start", "weights"})
+    EXPECT_EQ(
+        complaint(exemplar + "[[method]]\nname = 'm'\nkind = 'neural'\n" + key + " = 'nothing'\n"),
+        "a.toml:7:1: there is no file nothing");
+  EXPECT_EQ(complaint(exemplar + "[[method]]\nname = 'm'\nkind = 'neural'\n"
+                                 "network = 'nothing.toml'\n"),
+            "a.toml:7:1: there is no file nothing.toml");
 }
 
 TEST_F(ConfigText, NotToml) {
@@ -190,6 +267,9 @@ TEST_F(ConfigText, OverridesOfOneMethodOrExemplar) {
             QuiltingParams{}.patch_size);
   EXPECT_EQ(std::get<QuiltingParams>(config.methods.at(1).method).patch_size, 11);
   EXPECT_EQ(config.exemplars.at(0).max_side, 4);
+  const Config odd = parse(exemplar + "[[method]]\nname = 'a=b.c'\nkind = 'quilting'\n",
+                           {"method.a=b.c.patch_size=11"});
+  EXPECT_EQ(std::get<QuiltingParams>(odd.methods.at(0).method).patch_size, 11);
 }
 
 TEST_F(ConfigText, MistakesInOverridesAreFoundLikeThoseInTheFile) {
@@ -224,6 +304,18 @@ TEST_F(ConfigText, PlanSelectsByPattern) {
   EXPECT_EQ(selected("*/seed1"), (Names{"procedural/n/seed1", "e/q/seed1"}));
   EXPECT_EQ(selected("proc*"), (Names{"procedural/n/seed1", "procedural/n/seed12"}));
   EXPECT_THROW(selected("seed1"), ConfigError);
+}
+
+TEST_F(ConfigText, APatternHasNoLettersOfItsOwnBesideStarAndQuestionMark) {
+  EXPECT_TRUE(job_matches("[a] #1/q", "[a] #1/q/seed1"));
+  EXPECT_FALSE(job_matches("[ab]/q", "a/q/seed1"));
+  EXPECT_TRUE(job_matches("{a}!^*/q", "{a}!^/q/seed1"));
+  EXPECT_TRUE(job_matches("*石*", "黒石/q/seed1"));
+  EXPECT_TRUE(job_matches("?石/?/seed1", "黒石/é/seed1"));
+  EXPECT_FALSE(job_matches("??石/q", "黒石/q/seed1"));
+  EXPECT_FALSE(job_matches("*??石/q", "黒石/q/seed1"));
+  EXPECT_TRUE(job_matches("e*q*1", "e/q/seed1/q/seed1"));
+  EXPECT_FALSE(job_matches("\\e/q", "e/q/seed1"));
 }
 
 TEST_F(ConfigText, APictureThatCannotBeReadIsAProblemOfItsJobsOnly) {

@@ -65,7 +65,9 @@ TEST(Settings, PathsAreRelativeToTheConfig) {
             "../models/a.toml");
   EXPECT_EQ(value_to_json(fs::absolute("models/a.toml"), fs::path("configs")), "../models/a.toml");
   EXPECT_EQ(value_to_json(fs::path("models/a.toml"), fs::absolute("configs")), "../models/a.toml");
-  EXPECT_EQ(value_to_json(fs::path("multiscale"), fs::path("configs")), "multiscale");
+  EXPECT_EQ(value_to_json(fs::path("photo"), fs::path("configs")), "../photo");
+  EXPECT_EQ(value_to_json(FileOrName("multiscale"), fs::path("configs")), "multiscale");
+  EXPECT_EQ(value_to_json(FileOrName("a.toml"), fs::path("configs")), "../a.toml");
   EXPECT_EQ(value_to_json(fs::path(), fs::path("configs")), "");
 }
 

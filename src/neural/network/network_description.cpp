@@ -97,8 +97,8 @@ std::vector<fs::path> known_networks() {
   return files;
 }
 
-fs::path find_network(const fs::path& network) {
-  if (network.has_parent_path() || network.has_extension()) return network;
+fs::path find_network(const FileOrName& network) {
+  if (!network.is_name()) return network;
   std::vector<std::string> names;
   for (const auto& file : known_networks()) {
     if (file.stem() == network) return file;

@@ -135,7 +135,7 @@ struct NetworkDescription {
 
 /// The file for `network`: itself when it is a path, or NAME.toml of the models folder when it is a
 /// bare word. Throws ConfigError when there is none (and names those that there are).
-std::filesystem::path find_network(const std::filesystem::path& network);
+std::filesystem::path find_network(const FileOrName& network);
 /// The network descriptions of the models folder, by name.
 std::vector<std::filesystem::path> known_networks();
 
