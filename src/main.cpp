@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <thread>
@@ -16,8 +15,11 @@
 #include "io/text_file.h"
 #include "jobs/baseline_compare.h"
 #include "jobs/config.h"
+#include "jobs/input_files.h"
+#include "jobs/interruption.h"
 #include "jobs/listing.h"
 #include "jobs/machine.h"
+#include "jobs/output_guard.h"
 #include "jobs/plan.h"
 #include "jobs/progress_bar.h"
 #include "jobs/runner.h"
@@ -49,15 +51,6 @@ struct Arguments {
   std::vector<std::string> words;  // the command line itself
 };
 
-std::atomic<bool> stop_asked{false};
-
-// The first signal asks the work to stop, the next one ends the process.
-extern "C" void ask_to_stop(int) {
-  stop_asked = true;
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
-}
-
 // A parent may have closed our standard streams; a result's file must not get their numbers.
 void keep_standard_streams_open() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
@@ -82,6 +75,7 @@ ExitCode print(const std::string& text) {
 // What --baseline names, read and checked before any work.
 std::optional<Baseline> earlier_run(const Arguments& arguments, const RunOptions& options) {
   if (arguments.baseline.empty()) return std::nullopt;
+  const NothingToKeep scope;
   try {
     std::error_code ignored;
     if (std::filesystem::equivalent(arguments.baseline, options.output, ignored))
@@ -98,6 +92,7 @@ std::optional<Baseline> earlier_run(const Arguments& arguments, const RunOptions
 // the worse.
 bool got_worse(const Baseline& before, const Config& config, const RunOptions& options,
                bool quiet) {
+  const NothingToKeep scope;
   const Baseline now = read_baseline(options.output, options.only);
   const auto changes = compare(before, now, config.baseline);
   write_text(options.output / "baseline.json", change_json(changes, before, config.baseline));
@@ -107,6 +102,7 @@ bool got_worse(const Baseline& before, const Config& config, const RunOptions& o
 
 // Writes the page of a run; the results are there whatever becomes of it.
 bool show_run(const std::filesystem::path& folder, ProgressBar& bar) {
+  const NothingToKeep scope;
   try {
     bar.message(fmt::format("page: {}", write_page(folder).string()));
     return true;
@@ -120,16 +116,17 @@ ExitCode run_command(const Arguments& arguments) {
   keep_large_buffers();
   set_thread_count(arguments.threads);
   const Config config = read_config(arguments.config, arguments.set);
-  std::signal(SIGINT, ask_to_stop);
-  std::signal(SIGTERM, ask_to_stop);
+  watch_signals();
   RunOptions options;
-  options.output = arguments.output.empty() ? std::filesystem::path("out") / config.file.stem()
-                                            : std::filesystem::path(arguments.output);
+  options.is_default_output = arguments.output.empty();
+  options.output =
+      options.is_default_output ? default_output(config) : std::filesystem::path(arguments.output);
   options.only = arguments.only;
   options.resume = arguments.resume;
-  options.stop = [] { return stop_asked.load(); };
+  options.stop = stop_asked;
   options.command = arguments.words;
   const std::optional<Baseline> before = earlier_run(arguments, options);
+  if (before) options.inputs = input_files(*before);
   ProgressBar bar(progress_style(arguments.quiet));
   const RunSummary summary = run(config, options, bar);
   const bool shown = show_run(options.output, bar);
@@ -149,12 +146,30 @@ ExitCode run_command(const Arguments& arguments) {
 }
 
 ExitCode report_command(const Arguments& arguments) {
+  try {
+    check_page(arguments.folder);
+  } catch (const Error& error) {
+    throw ConfigError("report {}: {}", arguments.folder, error.what());
+  }
   return print(write_page(arguments.folder).string() + "\n");
+}
+
+// What would keep a run from writing its results where it does when it is told nothing else.
+std::string output_refusal(const Config& config, const Plan& plan) {
+  const std::filesystem::path output = default_output(config);
+  try {
+    check_default_output(config, output);
+    check_output(config, plan, output, input_files(config));
+    return "";
+  } catch (const Error& error) {
+    return fmt::format("cannot run: --output {}: {}\n", output.string(), error.what());
+  }
 }
 
 ExitCode check_command(const Arguments& arguments) {
   const Config config = read_config(arguments.config, arguments.set);
-  return print(job_table(config, make_plan(config, arguments.only)));
+  const Plan plan = make_plan(config, arguments.only);
+  return print(job_table(config, plan) + output_refusal(config, plan));
 }
 
 ExitCode list_command(const Arguments& arguments) {
@@ -183,8 +198,10 @@ ExitCode score_command(const Arguments& arguments) {
 void add_config_options(CLI::App& command, Arguments& arguments) {
   command.add_option("config", arguments.config, "config file (TOML)")->required();
   command
-      .add_option("--only", arguments.only,
-                  "only jobs whose exemplar/method or exemplar/method/seedN matches: * and ?")
+      .add_option(
+          "--only", arguments.only,
+          "only jobs whose exemplar/method or exemplar/method/seedN matches: * stands for any "
+          "letters, ? for one, all else for itself")
       ->type_name("GLOB");
   command
       .add_option("--set", arguments.set,

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "jobs/interruption.h"
 #include "jobs/memory.h"
 #include "metrics/scores.h"
 #include "runs/job_files.h"
@@ -41,6 +42,7 @@ bool lacks_scores(const Run& run, const PlannedJob& planned, const JobRecord& re
 bool score_job(Run& run, const PlannedJob& planned, JobRecord& record) {
   const auto start = std::chrono::steady_clock::now();
   const JobFiles files = job_files(run.options.output, planned.name);
+  const NothingToKeep scope;
   record.score_error.clear();
   try {
     score_texture(run, planned, files, record);

@@ -2,6 +2,7 @@
 
 #include "core/hash.h"
 #include "io/text_file.h"
+#include "jobs/interruption.h"
 #include "jobs/memory.h"
 #include "jobs/results.h"
 #include "jobs/trace_log.h"
@@ -46,6 +47,8 @@ Made make_texture(Run& run, const PlannedJob& planned, const JobFiles& files, Tr
     made.stopped = run.stopped();
     return !made.stopped;
   };
+  std::optional<NothingToKeep> scope;
+  if (!std::holds_alternative<NeuralParams>(run.config.methods[job.method].method)) scope.emplace();
   // The seed alone: a texture does not change when its exemplar or method is given another name.
   made.texture = run_method(run.config.methods[job.method].method, exemplar_of(run, job).image,
                             {run.config.size, run.config.tile},
@@ -98,6 +101,7 @@ void do_job(Run& run, const PlannedJob& planned, const JobFiles& files, bool kee
 
 const Exemplar& exemplar_of(Run& run, const Job& job) {
   if (run.loaded != job.exemplar) {
+    const NothingToKeep scope;
     run.loaded.reset();
     run.exemplar = {};
     if (job.exemplar) run.exemplar = load_exemplar(run.config.exemplars[*job.exemplar]);

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "jobs/folder_lock.h"
+#include "jobs/interruption.h"
 #include "jobs/job_scores.h"
+#include "jobs/output_guard.h"
 #include "jobs/results.h"
 #include "jobs/run_file.h"
 #include "neural/blas_speed.h"
@@ -29,6 +31,11 @@ std::optional<JobRecord> finished_before(const Run& run, const PlannedJob& plann
   return std::nullopt;
 }
 
+Plan look_ahead(const Config& config, const RunOptions& options) {
+  const NothingToKeep scope;
+  return make_plan(config, options.only);
+}
+
 // A folder that can be written and is ours alone, with run.json in it, or a ConfigError.
 struct Output {
   FolderLock lock;
@@ -39,6 +46,12 @@ Output prepare_output(const Config& config, const Plan& plan, const RunOptions& 
   try {
     create_folder(output);
     FolderLock lock(output);
+    if (options.is_default_output) check_default_output(config, output);
+    std::vector<InputFile> inputs = input_files(config);
+    inputs.insert(inputs.end(), options.inputs.begin(), options.inputs.end());
+    check_output(config, plan, output, inputs);
+    for (const auto* stem : {"run", "scores", "index", "baseline"})
+      remove_stale_temporaries(output, stem);
     return {std::move(lock), RunFile(config, plan, options)};
   } catch (const Error& error) {
     throw ConfigError("--output {}: {}", output.string(), error.what());
@@ -116,6 +129,7 @@ void keep_exemplar(Run& run, const Job& job, std::optional<std::size_t>& kept) {
   or_complain(run, [&] {
     const fs::path folder = run.options.output / exemplar_name(run.config, job);
     create_folder(folder);
+    remove_stale_temporaries(folder, "exemplar");
     write_exemplar(folder, exemplar_of(run, job));
   });
 }
@@ -163,6 +177,7 @@ void add_diversity(Run& run, const JobGroup& group, RunFile& run_file, RunSummar
       exemplar_name(run.config, first), run.config.methods[first.method].name, {}, 0};
   for (const PlannedJob* planned : finished) diversity.seeds.push_back(planned->job.seed);
   if (finished.size() < 2 || run_file.knows(diversity)) return;
+  const NothingToKeep scope;
   try {
     run.bar.start(job_folder(run.config, first) + " diversity", 1, 1);
     diversity.value = diversity_of(run, finished);
@@ -178,7 +193,7 @@ void add_diversity(Run& run, const JobGroup& group, RunFile& run_file, RunSummar
 }  // namespace
 
 RunSummary run(const Config& config, const RunOptions& options, ProgressBar& bar) {
-  const Plan plan = make_plan(config, options.only);
+  const Plan plan = look_ahead(config, options);
   Output output = prepare_output(config, plan, options);
   Run run{config, options, plan, bar, {}, {}};
   const auto count = static_cast<std::size_t>(

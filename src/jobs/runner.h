@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "jobs/config.h"
+#include "jobs/input_files.h"
 #include "jobs/progress_bar.h"
 
 namespace gramloom {
@@ -16,6 +17,8 @@ struct RunOptions {
   bool resume = false;               // keep finished jobs, go on with unfinished ones
   std::function<bool()> stop;        // true once the user has asked to stop
   std::vector<std::string> command;  // the command line, for run.json
+  bool is_default_output = false;    // the user named no folder: it is for this config alone
+  std::vector<InputFile> inputs;     // that must stay as they are, beside those of the config
 };
 
 /// How the jobs of a run went; `left` were not begun because the user asked to stop.
@@ -40,8 +43,8 @@ struct RunSummary {
 /// Textures made from an exemplar are scored against it, unless the config says scores = false.
 /// A job that fails says so in its record and does not stop the others. A finished result stays as
 /// it is until the one that replaces it is complete, or has failed.
-/// Throws ConfigError before any work when a method refuses its parameters, when no job matches, or
-/// when `output` cannot be written.
+/// Throws ConfigError before any work when a method refuses its parameters, when no job matches,
+/// when `output` cannot be written, or when a file in it is read by this run or no run's.
 RunSummary run(const Config& config, const RunOptions& options, ProgressBar& bar);
 
 }  // namespace gramloom

@@ -8,6 +8,15 @@ namespace gramloom {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// "seed1.png" and "seed1_height.png" are of "seed1", "seed10.png" is not.
+bool is_of_stem(const std::string& name, const std::string& stem) {
+  return name.starts_with(stem + ".") || name.starts_with(stem + "_");
+}
+
+}  // namespace
+
 JobFiles job_files(const fs::path& output, const std::string& job) {
   const fs::path stem = output / job;
   return {stem.parent_path(),
@@ -38,12 +47,15 @@ void remove_unfinished_state(const JobFiles& files) {
 }
 
 void remove_stale_temporaries(const JobFiles& files) {
+  remove_stale_temporaries(files.folder, files.name);
+}
+
+void remove_stale_temporaries(const fs::path& folder, const std::string& stem) {
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(files.folder, ignored)) {
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
-    const bool ours =
-        name.starts_with("." + files.name + ".") || name.starts_with("." + files.name + "_");
-    if (ours && name.ends_with(".tmp")) remove_file(entry.path());
+    if (name.starts_with('.') && name.ends_with(".tmp") && is_of_stem(name.substr(1), stem))
+      remove_file(entry.path());
   }
 }
 
@@ -51,7 +63,7 @@ void remove_replaced(const JobFiles& files, const std::vector<std::string>& befo
                      const std::vector<std::string>& now) {
   for (const auto& name : before) {
     // The record is a text that anyone may have changed: only files beside it are ours.
-    const bool beside = fs::path(name).filename() == name && name.starts_with(files.name);
+    const bool beside = fs::path(name).filename() == name && is_of_stem(name, files.name);
     if (beside && std::find(now.begin(), now.end(), name) == now.end())
       remove_file(files.folder / name);
   }

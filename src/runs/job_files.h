@@ -29,8 +29,10 @@ void remove_file(const std::filesystem::path& file);
 /// Removes what an unfinished job keeps to go on from.
 void remove_unfinished_state(const JobFiles& files);
 
-/// Removes half-written temporary files that a killed process left.
+/// Removes half-written temporary files that a killed process left of a job, or of the files in
+/// `folder` that begin with "stem." or "stem_".
 void remove_stale_temporaries(const JobFiles& files);
+void remove_stale_temporaries(const std::filesystem::path& folder, const std::string& stem);
 
 /// Removes pictures of the result before that the new one has not written over.
 void remove_replaced(const JobFiles& files, const std::vector<std::string>& before,

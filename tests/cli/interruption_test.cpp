@@ -54,7 +54,7 @@ class Interruption : public Workspace {
 };
 
 TEST_F(Interruption, CtrlCStopsAndSaysSo) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     write_long_config();
     fs::remove_all(folder_ / "out");
     Process process(folder_, {"run", "long.toml"});
@@ -71,6 +71,27 @@ TEST_F(Interruption, CtrlCStopsAndSaysSo) {
     EXPECT_EQ(run_json["jobs"]["e/long/seed1"]["status"], "interrupted");
     EXPECT_EQ(run_json["jobs"]["e/next/seed1"]["status"], "waiting");
   }
+}
+
+TEST_F(Interruption, TheSecondCtrlCEndsTheProcessAtOnce) {
+  write_long_config();
+  Process process(folder_, {"run", "long.toml"});
+  wait_for_file("out/long/e/long/seed1.json");
+  process.signal(SIGHUP);
+  process.signal(SIGTERM);
+  process.signal(SIGINT);
+  const int exit_code = process.wait().exit_code;
+  EXPECT_TRUE(exit_code == 130 || exit_code == 128 + SIGTERM) << exit_code;
+  EXPECT_EQ(record("e/long/seed1", "out/long")->status, Status::interrupted);
+}
+
+TEST_F(Interruption, NohupIsObeyed) {
+  write_long_config();
+  const Outcome outcome =
+      shell(folder_,
+            "trap '' HUP; $GRAMLOOM run c.toml --set size=1000 & "
+            "while ! test -e out/c/run.json; do sleep 0.01; done; kill -HUP $!; wait $!");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
 }
 
 TEST_F(Interruption, AKilledJobIsNotCalledDone) {
@@ -233,11 +254,11 @@ class Iterative : public Interruption {
   }
 };
 
-TEST_F(Iterative, CtrlCSavesWhatThereIsAndResumeGoesOnToTheSameResult) {
+TEST_F(Iterative, TheEndOfTheTerminalSavesWhatThereIsAndResumeGoesOnToTheSameResult) {
   ASSERT_EQ(run({"run", "gram.toml", "--output", "whole"}).exit_code, 0);
   expect_whole_trace("whole");
 
-  EXPECT_EQ(stop_in_the_middle(SIGINT, {"run", "gram.toml"}).exit_code, 130);
+  EXPECT_EQ(stop_in_the_middle(SIGHUP, {"run", "gram.toml"}).exit_code, 130);
   EXPECT_EQ(record(job_, "out/gram")->status, Status::interrupted);
   EXPECT_NO_THROW(read_image(folder_ / "out/gram" / (job_ + ".png")));
   const Trace before = trace("out/gram");

@@ -1,0 +1,58 @@
+#include "jobs/input_files.h"
+
+#include "neural/network/network_description.h"
+#include "runs/job_files.h"
+
+namespace gramloom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path file_of(const fs::path& file) { return file; }
+
+// A name that no network has is found elsewhere.
+fs::path file_of(const FileOrName& network) {
+  try {
+    return network.empty() ? fs::path() : find_network(network);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+void add_files_of(const Method& method, std::vector<InputFile>& files) {
+  std::visit(
+      [&](const auto& params) {
+        for_each_parameter(params, [&]<class T>(const auto&, const T& value) {
+          if constexpr (std::is_base_of_v<fs::path, T>)
+            if (const fs::path file = file_of(value); !file.empty())
+              files.push_back({file, "the config reads"});
+        });
+      },
+      method);
+}
+
+}  // namespace
+
+std::vector<InputFile> input_files(const Config& config) {
+  std::vector<InputFile> files{{config.file, "is the config"}};
+  for (const ExemplarEntry& exemplar : config.exemplars) {
+    files.push_back({exemplar.image, "the config reads"});
+    for (const auto& [map, file] : exemplar.maps) files.push_back({file, "the config reads"});
+  }
+  for (const MethodEntry& method : config.methods) add_files_of(method.method, files);
+  return files;
+}
+
+std::vector<InputFile> input_files(const Baseline& baseline) {
+  const std::string reader = "--baseline reads";
+  std::vector<InputFile> files{{baseline.folder / "run.json", reader}};
+  for (const auto& [name, record] : baseline.jobs) {
+    const JobFiles job = job_files(baseline.folder, name);
+    files.push_back({job.record, reader});
+    for (const auto& picture : record.files) files.push_back({job.folder / picture, reader});
+  }
+  return files;
+}
+
+}  // namespace gramloom
