@@ -25,6 +25,9 @@ struct Encoding {
   friend bool operator==(const Encoding&, const Encoding&) = default;
 };
 
+/// The most pixels on a side of a JPEG file.
+inline constexpr int longest_side_of_jpeg = 65500;
+
 /// Texts in a file by name. Use names with a prefix ("gramloom:settings") for what is ours.
 using Metadata = std::map<std::string, std::string>;
 

@@ -71,9 +71,9 @@ void check_fits(const Format& format, const Image& image) {
     throw Error("a {} file cannot hold {} channel{}; .tif and .exr hold any number", format.name,
                 image.channels, image.channels == 1 ? "" : "s");
   // Beyond these, libjpeg ends the whole process.
-  if (format.name == "jpeg" && std::max(image.width, image.height) > 65500)
-    throw Error("a jpeg file cannot hold {}×{} pixels; a side has at most 65500", image.width,
-                image.height);
+  if (format.name == "jpeg" && std::max(image.width, image.height) > longest_side_of_jpeg)
+    throw Error("a jpeg file cannot hold {}×{} pixels; a side has at most {}", image.width,
+                image.height, longest_side_of_jpeg);
 }
 
 /// Names, colour space and metadata as the text that every format keeps.

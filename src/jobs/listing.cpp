@@ -48,6 +48,13 @@ std::string problem_of(const Config& config, const Plan& plan, const PlannedJob&
   return unscored.empty() ? "" : "cannot be scored: " + unscored;
 }
 
+std::string problem_of(const PlannedDiversity& planned, double available) {
+  const std::string refusal = diversity_refusal(planned.cost, available);
+  return refusal.empty() ? "" : "cannot be compared: " + refusal;
+}
+
+std::string memory_text(double bytes) { return fmt::format("{:.2f} GB", bytes / 1e9); }
+
 }  // namespace
 
 std::string list_methods() {
@@ -93,10 +100,17 @@ std::string job_table(const Config& config, const Plan& plan) {
     if (!planned.selected) continue;
     ++count;
     const double job_seconds = planned.cost.seconds + planned.scoring.seconds;
-    const double bytes = std::max(planned.cost.bytes, planned.scoring.bytes);
+    const double bytes = program_memory(config.methods[planned.job.method].method) +
+                         std::max(planned.cost.bytes, planned.scoring.bytes);
     seconds += job_seconds;
-    rows.push_back({planned.name, fmt::format("{:.2f} GB", bytes / 1e9), clock_text(job_seconds),
+    rows.push_back({planned.name, memory_text(bytes), clock_text(job_seconds),
                     problem_of(config, plan, planned, available)});
+  }
+  for (const auto& diversity : plan.diversities) {
+    seconds += diversity.cost.seconds;
+    rows.push_back({diversity.name + " diversity",
+                    memory_text(program_memory(QuiltingParams()) + diversity.cost.bytes),
+                    clock_text(diversity.cost.seconds), problem_of(diversity, available)});
   }
   return text_table(rows, "") +
          fmt::format("{} {}, about {}\n", count, count == 1 ? "job" : "jobs", clock_text(seconds));

@@ -58,6 +58,13 @@ double left_in_groups() {
 
 }  // namespace
 
+double program_memory(const Method& method) {
+  // Measured, with OpenImageIO; a neural job opens LibTorch too.
+  constexpr double with_pictures = 1.3e8;
+  constexpr double with_networks = 2.3e8;
+  return std::holds_alternative<NeuralParams>(method) ? with_networks : with_pictures;
+}
+
 double available_memory() {
   const double machine = labelled_number("/proc/meminfo", "MemAvailable:", unlimited) * 1024;
   return std::min(machine, left_in_groups());

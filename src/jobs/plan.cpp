@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "classic/check_input.h"
 #include "jobs/pattern.h"
+#include "jobs/results.h"
 #include "jobs/settings.h"
 #include "metrics/scores.h"
 
@@ -16,6 +19,15 @@ const ExemplarFacts& facts_of(const Plan& plan, const Job& job) {
   return job.exemplar ? plan.exemplars[*job.exemplar] : none;
 }
 
+// Throws Error for what no method takes.
+void check_values(const ExemplarEntry& exemplar, const Image& joined) {
+  try {
+    check_input(joined, {joined.size()});
+  } catch (const Error& error) {
+    throw Error("{}: {}", exemplar.image.string(), error.what());
+  }
+}
+
 ExemplarFacts look_at(const ExemplarEntry& exemplar) {
   ExemplarFacts facts;
   try {
@@ -24,12 +36,21 @@ ExemplarFacts look_at(const ExemplarEntry& exemplar) {
     Exemplar loaded = load_exemplar(exemplar);
     facts.size = loaded.image.size();
     facts.layers = std::move(loaded.layers);
+    check_values(exemplar, loaded.image);
   } catch (const ConfigError&) {
     throw;  // for the user to mend first
   } catch (const Error& error) {
     facts.error = error.what();
   }
   return facts;
+}
+
+// Throws Error when the config's format cannot hold a texture or one of its maps.
+void check_formats(const Config& config, const ExemplarFacts& facts) {
+  constexpr int colours = 3;  // that procedural textures have
+  if (facts.layers.empty()) output_format(config, {}, colours);
+  for (const ExemplarLayer& layer : facts.layers)
+    output_format(config, layer.encoding, layer.channels);
 }
 
 // The cost of a job, or why the method cannot do it. A ConfigError is for the user to mend first.
@@ -39,6 +60,7 @@ void estimate_job(const Config& config, const Plan& plan, PlannedJob& planned) {
   planned.error = facts.error;
   if (!planned.error.empty()) return;
   try {
+    check_formats(config, facts);
     planned.cost = estimate_method(method.method, facts.size, channels_of(facts.layers),
                                    {config.size, config.tile});
     if (config.scores && planned.job.exemplar)
@@ -48,6 +70,23 @@ void estimate_job(const Config& config, const Plan& plan, PlannedJob& planned) {
   } catch (const Error& error) {
     planned.error = error.what();
   }
+}
+
+// Those of all groups of two or more selected seeds that can be made.
+std::vector<PlannedDiversity> plan_diversities(const Config& config, const Plan& plan) {
+  std::map<std::string, int> seeds;
+  std::vector<PlannedDiversity> diversities;
+  if (!config.scores) return diversities;
+  for (const PlannedJob& planned : plan.jobs) {
+    if (!planned.selected || !planned.job.exemplar || !planned.error.empty()) continue;
+    const std::string name = job_folder(config, planned.job);
+    const int count = ++seeds[name];
+    if (count < 2) continue;
+    if (count > 2) diversities.pop_back();
+    const int channels = facts_of(plan, planned.job).layers.front().channels;
+    diversities.push_back({name, estimate_diversity(config.size, channels, count)});
+  }
+  return diversities;
 }
 
 std::vector<Job> all_jobs(const Config& config) {
@@ -61,6 +100,12 @@ std::vector<Job> all_jobs(const Config& config) {
   for (std::size_t exemplar = 0; exemplar < config.exemplars.size(); ++exemplar)
     add(exemplar, true);
   return jobs;
+}
+
+std::string refusal_of(std::string_view work, const Cost& cost, double available) {
+  if (cost.bytes <= available) return "";
+  return fmt::format("{} needs about {:.1f} GB of memory, {:.1f} GB are free", work,
+                     cost.bytes / 1e9, available / 1e9);
 }
 
 }  // namespace
@@ -106,13 +151,16 @@ Plan make_plan(const Config& config, const std::string& only) {
         "--only {}: no job of {} matches (* stands for any letters, ? for one, all else for "
         "itself); they are called like {}",
         only, config.file.string(), plan.jobs.front().name);
+  plan.diversities = plan_diversities(config, plan);
   return plan;
 }
 
 std::string scoring_refusal(const PlannedJob& job, double available) {
-  if (job.scoring.bytes <= available) return "";
-  return fmt::format("scoring needs about {:.1f} GB of memory, {:.1f} GB are free",
-                     job.scoring.bytes / 1e9, available / 1e9);
+  return refusal_of("scoring", job.scoring, available);
+}
+
+std::string diversity_refusal(const Cost& cost, double available) {
+  return refusal_of("diversity", cost, available);
 }
 
 std::string memory_refusal(const Config& config, const Plan& plan, const PlannedJob& planned,

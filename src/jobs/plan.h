@@ -35,7 +35,7 @@ struct ExemplarFacts {
   Size size;  // after max_side
   std::vector<ExemplarLayer> layers;
   std::vector<std::string> hashes;  // of each layer's file
-  std::string error;                // why it cannot be read; its jobs fail with this
+  std::string error;  // why it cannot be read, or taken by a method; its jobs fail with this
 };
 
 /// A job and what it is expected to need.
@@ -48,19 +48,31 @@ struct PlannedJob {
   bool selected = true;  // false: --only leaves it out
 };
 
+/// The comparison of the selected seeds of one exemplar and method.
+struct PlannedDiversity {
+  std::string name;  // "pebbles/quilting"
+  Cost cost;
+};
+
 /// All jobs of a config and what is known before they run.
 struct Plan {
   std::vector<ExemplarFacts> exemplars;  // as in the config
   std::vector<PlannedJob> jobs;
+  std::vector<PlannedDiversity> diversities;
 };
 
-/// Reads every exemplar once and estimates every job. Selected are the jobs that
-/// match `only` (see job_matches). Throws ConfigError for parameters that a method refuses, for
-/// maps that do not fit their picture, and when no job matches.
+/// Reads every exemplar once and estimates every job. All that keeps a job from running, but for
+/// the memory that is free, is found here, for `check` and for `run`: what is wrong with its
+/// exemplar, what the method refuses, what the files of the results cannot hold. Selected are the
+/// jobs that match `only` (see job_matches). Throws ConfigError for parameters that a method
+/// refuses, for maps that do not fit their picture, and when no job matches.
 Plan make_plan(const Config& config, const std::string& only = "");
 
 /// "" when a finished texture can be scored in `available` bytes; otherwise why not.
 std::string scoring_refusal(const PlannedJob& job, double available);
+
+/// "" when finished textures can be compared in `available` bytes; otherwise why not.
+std::string diversity_refusal(const Cost& cost, double available);
 
 /// "" when the job fits into `available` bytes; otherwise one line that says what would fit.
 std::string memory_refusal(const Config& config, const Plan& plan, const PlannedJob& job,

@@ -1,5 +1,7 @@
 #include "jobs/results.h"
 
+#include <algorithm>
+
 #include "jobs/machine.h"
 #include "runs/job_files.h"
 
@@ -44,6 +46,10 @@ OutputFormat output_format(const Config& config, const Encoding& exemplar, int c
   if (!can_hold(format, channels))
     throw Error("a {} file cannot hold {} channels: choose format = \"tif\" or \"exr\"",
                 to_word(format), channels);
+  if (format == FileFormat::jpg &&
+      std::max(config.size.width, config.size.height) > longest_side_of_jpeg)
+    throw Error("a jpg file cannot hold {}×{} pixels, a side has at most {}: choose another format",
+                config.size.width, config.size.height, longest_side_of_jpeg);
   if (output.encoding.channel_names.size() != static_cast<std::size_t>(channels))
     output.encoding.channel_names.clear();
   return output;

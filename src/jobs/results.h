@@ -13,7 +13,8 @@
 namespace gramloom {
 
 /// The extension (".png") and encoding of a result of `config` whose exemplar was encoded like
-/// this. Throws Error when the config's format cannot hold so many channels.
+/// this. Throws Error when the config's format cannot hold so many channels,
+/// or a result of its size.
 struct OutputFormat {
   std::string extension;
   Encoding encoding;

@@ -75,10 +75,6 @@ void write_results(Run& run, const PlannedJob& planned, const JobFiles& files, T
 void do_job(Run& run, const PlannedJob& planned, const JobFiles& files, bool keep_old,
             JobRecord& record) {
   refuse_if_impossible(run, planned);
-  // Known before the work where the exemplar says it.
-  if (planned.job.exemplar)
-    for (const ExemplarLayer& layer : run.plan.exemplars[*planned.job.exemplar].layers)
-      output_format(run.config, layer.encoding, layer.channels);
   TraceLog trace(files.checkpoint_trace, hash_of(record.settings.dump()));
   if (!run.options.resume || !trace.continues() || !exists(files.checkpoint)) {
     trace.restart();

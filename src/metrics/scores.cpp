@@ -104,6 +104,13 @@ Cost estimate_scores(Size exemplar, int channels, Size image) {
           0.1 + 3.5e-6 * (of_exemplar + of_image)};
 }
 
+Cost estimate_diversity(Size image, int channels, int seeds) {
+  const double pixels = 1.0 * image.width * image.height;
+  const double pairs = 0.5 * seeds * (seeds - 1);
+  // All results and their components; and the transforms of a pair.
+  return {3e7 + pixels * (8.0 * channels * seeds + 150), 0.02 + pairs * 7e-7 * pixels};
+}
+
 double diversity(std::span<const Image> seeds, const Control& control) {
   if (seeds.size() < 2) throw Error("diversity needs the results of at least two seeds");
   const ColourFrame frame = colour_frame(seeds.front());

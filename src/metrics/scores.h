@@ -53,4 +53,7 @@ Cost estimate_scores(Size exemplar, int channels, Size image);
 /// `control` asks to stop.
 double diversity(std::span<const Image> seeds, const Control& control = {});
 
+/// What diversity() of that many results of this size is expected to need.
+Cost estimate_diversity(Size image, int channels, int seeds);
+
 }  // namespace gramloom

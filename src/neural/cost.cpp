@@ -23,7 +23,6 @@ LossSize loss_size(const NeuralParams& params, Size exemplar, Size canvas, int c
   if (!needs_network(params)) return size;
   auto network = read_network(find_network(params.network));
   const auto layers = matched_layers(params, network);
-  check_weights(params, network, channels);
   const auto shapes = filter_shapes(network, channels);
   size.of_result = network_work(network, shapes, layers, canvas, channels);
   size.of_exemplar = network_work(network, shapes, layers, exemplar, channels);
@@ -54,12 +53,28 @@ double seconds_of_step(const NeuralParams& params, double evaluation, double pic
   return evaluations_per_step * seconds + picture * (4 * params.history) * 2e-10;
 }
 
-}  // namespace
-
-Cost estimate(const NeuralParams& params, Size exemplar, int channels, const Target& target) {
+// All that the synthesis itself would refuse once it has begun.
+void check_possible(const NeuralParams& params, Size exemplar, int channels, const Target& target) {
   check_settings(params);
   if (params.sliced_weight > 0)
     check_patches_fit(params.patch_sizes, exemplar, target.size, target.tile);
+  if (!params.start.empty()) read_start(params, channels);
+  if (!needs_network(params)) {
+    check_levels(params, nullptr, exemplar, target);
+    return;
+  }
+  auto network = read_network(find_network(params.network));
+  matched_layers(params, network);
+  check_weights(params, network, channels);
+  check_levels(params, &network, exemplar, target);
+  if (!params.weights.empty())
+    read_weights(network, filter_shapes(network, channels), params.weights);
+}
+
+}  // namespace
+
+Cost estimate(const NeuralParams& params, Size exemplar, int channels, const Target& target) {
+  check_possible(params, exemplar, channels, target);
   const LossSize size = loss_size(params, exemplar, canvas_size(params, target), channels);
   const LossCost loss = loss_cost(params, size);
   const bool remembers = std::find(params.optimizer.begin(), params.optimizer.end(),

@@ -4,9 +4,11 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "core/hash.h"
 #include "io/field_values.h"
+#include "io/image_file.h"
 #include "io/text_file.h"
 
 namespace gramloom::neural {
@@ -82,6 +84,19 @@ void check_settings(const NeuralParams& params) {
   of_network("layer_weights", !params.layer_weights.empty());
 }
 
+namespace {
+
+// The picture at each of the sizes that a network looks at.
+std::vector<Size> scales_of(const NetworkDescription& network, Size size) {
+  std::vector<Size> scales{size};
+  if (const auto* pyramid = std::get_if<PyramidLayer>(&network.layers.front().kind))
+    while (scales.size() < static_cast<std::size_t>(pyramid->scales))
+      scales.push_back({(scales.back().width + 1) / 2, (scales.back().height + 1) / 2});
+  return scales;
+}
+
+}  // namespace
+
 std::vector<MatchedLayer> matched_layers(const NeuralParams& params,
                                          NetworkDescription& description) {
   const auto& names = params.layers.empty() ? description.matched : params.layers;
@@ -111,6 +126,36 @@ std::vector<MatchedLayer> matched_layers(const NeuralParams& params,
   return layers;
 }
 
+void check_levels(const NeuralParams& params, const NetworkDescription* network, Size exemplar,
+                  const Target& target) {
+  const int levels = level_count(params, exemplar, target);
+  const Size own = level_size(params, exemplar, levels - 1);
+  const Size result = level_size(params, canvas_size(params, target), levels - 1);
+  try {
+    if (params.sliced_weight > 0) check_patches_fit(params.patch_sizes, own, result, target.tile);
+    if (!network) return;
+    const auto check_network = [&](Size size, bool valid_x, bool valid_y) {
+      for (const Size scale : scales_of(*network, size))
+        map_sizes(*network, scale, wrapping(valid_x, valid_y));
+    };
+    const bool valid = params.padding == Padding::valid;
+    const bool exemplar_valid = params.exemplar_padding == Padding::valid;
+    check_network(own, exemplar_valid, exemplar_valid);
+    check_network(result, valid && !tiles_x(target.tile), valid && !tiles_y(target.tile));
+  } catch (const Error& error) {
+    if (levels == 1) throw;
+    throw Error("on the coarsest of {} levels, {}; or take fewer levels", levels, error.what());
+  }
+}
+
+Image read_start(const NeuralParams& params, int channels) {
+  Image image = read_image(params.start).image;
+  if (image.channels != channels)
+    throw Error("{}: has {} channels, the exemplar has {}", params.start.string(), image.channels,
+                channels);
+  return image;
+}
+
 void check_weights(const NeuralParams& params, const NetworkDescription& description,
                    int channels) {
   if (params.weights.empty()) return;
@@ -121,6 +166,49 @@ void check_weights(const NeuralParams& params, const NetworkDescription& descrip
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(params.weights, ignored))
     throw ConfigError("weights: there is no file {}", params.weights.string());
+}
+
+std::string weight_name(std::size_t layer) { return fmt::format("features.{}.weight", layer); }
+std::string bias_name(std::size_t layer) { return fmt::format("features.{}.bias", layer); }
+
+namespace {
+
+void check_tensor(const std::filesystem::path& file,
+                  const std::map<std::string, TensorData>& tensors, const std::string& name,
+                  const std::vector<std::int64_t>& shape) {
+  const auto found = tensors.find(name);
+  if (found == tensors.end()) throw Error("{}: no tensor '{}'", file.string(), name);
+  if (found->second.shape != shape)
+    throw Error("{}: tensor '{}' has shape [{}], the network needs [{}]", file.string(), name,
+                fmt::join(found->second.shape, ", "), fmt::join(shape, ", "));
+  for (const float value : found->second.values)
+    if (!std::isfinite(value))
+      throw Error("{}: tensor '{}' holds a value that is no finite number", file.string(), name);
+}
+
+}  // namespace
+
+std::map<std::string, TensorData> read_weights(const NetworkDescription& description,
+                                               const std::vector<FilterShape>& shapes,
+                                               const std::filesystem::path& file) {
+  std::set<std::string> names;
+  for (const auto& shape : shapes) {
+    const auto& layer = description.layers[shape.layer];
+    if (!std::holds_alternative<ConvolutionLayer>(layer.kind))
+      throw Error(
+          "{}: layer '{}' of network '{}' has filters of several scales, which only random "
+          "weights can fill",
+          file.string(), layer.name, description.name);
+    names.insert(weight_name(shape.layer));
+    names.insert(bias_name(shape.layer));
+  }
+  auto tensors = read_tensors(file, [&](const std::string& name) { return names.contains(name); });
+  for (const auto& shape : shapes) {
+    check_tensor(file, tensors, weight_name(shape.layer),
+                 {shape.outputs, shape.inputs, shape.kernel, shape.kernel});
+    check_tensor(file, tensors, bias_name(shape.layer), {shape.outputs});
+  }
+  return tensors;
 }
 
 std::string fingerprint(const NeuralParams& params, const Image& exemplar, const Target& target,

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "core/image.h"
 #include "core/random.h"
+#include "io/safetensors.h"
 #include "neural/network/work.h"
 #include "neural/params.h"
 
@@ -44,9 +46,26 @@ void check_settings(const NeuralParams& params);
 std::vector<MatchedLayer> matched_layers(const NeuralParams& params,
                                          NetworkDescription& description);
 
+/// Throws Error when the coarsest level of the exemplar or of the result is too small for the
+/// patches or for a layer of the network (none: not needed).
+void check_levels(const NeuralParams& params, const NetworkDescription* network, Size exemplar,
+                  const Target& target);
+
+/// The picture to start from. Throws Error when it cannot be read or has other channels.
+Image read_start(const NeuralParams& params, int channels);
+
 /// Throws Error when trained weights are for another number of channels, ConfigError when there is
 /// no such file.
 void check_weights(const NeuralParams& params, const NetworkDescription& description, int channels);
+
+/// Trained weights for these filters by the names that they have in the file, each of its shape and
+/// of finite numbers. Throws Error with file and tensor.
+std::map<std::string, TensorData> read_weights(const NetworkDescription& description,
+                                               const std::vector<FilterShape>& shapes,
+                                               const std::filesystem::path& file);
+/// torchvision's names of a layer's tensors.
+std::string weight_name(std::size_t layer);
+std::string bias_name(std::size_t layer);
 
 /// A hash of what the result depends on, for checkpoints; of the weights and the image to start
 /// from it knows the names, not the content.

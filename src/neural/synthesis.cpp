@@ -135,10 +135,7 @@ class Synthesis {
       const at::Tensor white = noise(random_, channels, size).mul_(params_.noise);
       return to_planes(whitened(unwhitened(to_image(white), principal_), colours_));
     }
-    const Image image = read_image(params_.start).image;
-    if (image.channels != channels)
-      throw Error("{}: has {} channels, the exemplar has {}", params_.start.string(),
-                  image.channels, channels);
+    const Image image = read_start(params_, channels);
     return resample(to_planes(whitened(image, colours_)), size, target_.tile);
   }
 

@@ -1,9 +1,9 @@
 #include <cmath>
-#include <set>
 
 #include "io/safetensors.h"
 #include "neural/network/network.h"
 #include "neural/normal_numbers.h"
+#include "neural/settings.h"
 
 namespace gramloom::neural {
 
@@ -20,19 +20,8 @@ at::Tensor orthonormal_rows(const at::Tensor& filters) {
   return at::cat(groups);
 }
 
-at::Tensor tensor_of(const std::filesystem::path& file,
-                     const std::map<std::string, TensorData>& tensors, const std::string& name,
-                     const std::vector<std::int64_t>& shape) {
-  const auto found = tensors.find(name);
-  if (found == tensors.end()) throw Error("{}: no tensor '{}'", file.string(), name);
-  if (found->second.shape != shape)
-    throw Error("{}: tensor '{}' has shape [{}], the network needs [{}]", file.string(), name,
-                fmt::join(found->second.shape, ", "), fmt::join(shape, ", "));
-  const auto& values = found->second.values;
-  for (const float value : values)
-    if (!std::isfinite(value))
-      throw Error("{}: tensor '{}' holds a value that is no finite number", file.string(), name);
-  return at::from_blob(const_cast<float*>(values.data()), shape, at::kFloat).clone();
+at::Tensor tensor_of(const TensorData& data) {
+  return at::from_blob(const_cast<float*>(data.values.data()), data.shape, at::kFloat).clone();
 }
 
 }  // namespace
@@ -56,26 +45,11 @@ std::vector<FilterWeights> random_filters(const std::vector<FilterShape>& shapes
 std::vector<FilterWeights> load_filters(const NetworkDescription& description,
                                         const std::vector<FilterShape>& shapes,
                                         const std::filesystem::path& file) {
-  const auto name = [](std::size_t layer, const char* part) {
-    return fmt::format("features.{}.{}", layer, part);
-  };
-  std::set<std::string> names;
-  for (const auto& shape : shapes) {
-    const auto& layer = description.layers[shape.layer];
-    if (!std::holds_alternative<ConvolutionLayer>(layer.kind))
-      throw Error(
-          "{}: layer '{}' of network '{}' has filters of several scales, which only random "
-          "weights can fill",
-          file.string(), layer.name, description.name);
-    names.insert(name(shape.layer, "weight"));
-    names.insert(name(shape.layer, "bias"));
-  }
-  const auto tensors = read_tensors(file, [&](const std::string& n) { return names.contains(n); });
+  const auto tensors = read_weights(description, shapes, file);
   std::vector<FilterWeights> result;
   for (const auto& shape : shapes)
-    result.push_back({tensor_of(file, tensors, name(shape.layer, "weight"),
-                                {shape.outputs, shape.inputs, shape.kernel, shape.kernel}),
-                      tensor_of(file, tensors, name(shape.layer, "bias"), {shape.outputs})});
+    result.push_back({tensor_of(tensors.at(weight_name(shape.layer))),
+                      tensor_of(tensors.at(bias_name(shape.layer)))});
   return result;
 }
 

@@ -105,22 +105,8 @@ std::vector<at::Tensor> Network::scales(const at::Tensor& picture, Edges edges) 
 }
 
 std::vector<Size> Network::sizes(Size scale, Edges edges) const {
-  std::vector<Size> result;
-  Size size = scale;
-  for (std::size_t i = 0; i < description_.layers.size(); ++i) {
-    const Layer& layer = description_.layers[i];
-    const int lost = static_cast<int>(2 * radius(i));
-    if (edges.x == Padding::valid) size.width -= lost;
-    if (edges.y == Padding::valid) size.height -= lost;
-    if (is<AveragePoolLayer>(layer) || is<MaxPoolLayer>(layer))
-      size = {size.width / 2, size.height / 2};
-    if (size.width < 1 || size.height < 1)
-      throw Error(
-          "layer '{}' of network '{}' would be empty: a picture of {}×{} is too small for it",
-          layer.name, description_.name, scale.width, scale.height);
-    result.push_back(size);
-  }
-  return result;
+  return map_sizes(description_, scale,
+                   wrapping(edges.x == Padding::valid, edges.y == Padding::valid));
 }
 
 Rows Network::inputs(std::size_t layer, Rows rows, std::int64_t height, std::int64_t own_height,

@@ -143,6 +143,41 @@ std::size_t find_layer(const NetworkDescription& network, const std::string& lay
                                   : fmt::format("did you mean '{}'?", guess));
 }
 
+namespace {
+
+// Positions that a layer's filters see to each side.
+int radius_of(const LayerKind& kind) {
+  if (const auto* convolution = std::get_if<ConvolutionLayer>(&kind))
+    return convolution->kernel / 2 * convolution->dilation;
+  if (const auto* pyramid = std::get_if<PyramidLayer>(&kind)) return pyramid->kernel / 2;
+  int radius = 0;
+  if (const auto* bank = std::get_if<BankLayer>(&kind))
+    for (std::size_t i = 0; i < bank->kernels.size(); ++i)
+      radius = std::max(radius, bank->kernels[i] / 2 * bank->dilations[i]);
+  return radius;
+}
+
+}  // namespace
+
+std::vector<Size> map_sizes(const NetworkDescription& network, Size picture, Tile valid) {
+  std::vector<Size> sizes;
+  Size size = picture;
+  for (const Layer& layer : network.layers) {
+    const int lost = 2 * radius_of(layer.kind);
+    if (tiles_x(valid)) size.width -= lost;
+    if (tiles_y(valid)) size.height -= lost;
+    if (std::holds_alternative<AveragePoolLayer>(layer.kind) ||
+        std::holds_alternative<MaxPoolLayer>(layer.kind))
+      size = {size.width / 2, size.height / 2};
+    if (size.width < 1 || size.height < 1)
+      throw Error(
+          "layer '{}' of network '{}' would be empty: a picture of {}×{} is too small for it",
+          layer.name, network.name, picture.width, picture.height);
+    sizes.push_back(size);
+  }
+  return sizes;
+}
+
 std::vector<FilterShape> filter_shapes(const NetworkDescription& network, int channels) {
   std::vector<FilterShape> shapes;
   for (std::size_t i = 0; i < network.layers.size(); ++i) {

@@ -145,6 +145,11 @@ NetworkDescription read_network(const std::filesystem::path& file);
 /// Index of the layer of that name. Throws ConfigError naming the closest.
 std::size_t find_layer(const NetworkDescription& network, const std::string& layer);
 
+/// The sizes of the layers' maps of a picture; `valid`: axes on which convolutions see nothing
+/// beyond the edges. A pyramid's scales are pictures of their own. Throws Error when one would be
+/// empty.
+std::vector<Size> map_sizes(const NetworkDescription& network, Size picture, Tile valid);
+
 /// One filter bank of a network: a convolution layer, one branch of a bank, one scale of a pyramid.
 struct FilterShape {
   std::size_t layer = 0;  // index in NetworkDescription::layers
