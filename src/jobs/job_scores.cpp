@@ -25,8 +25,8 @@ void score_texture(Run& run, const PlannedJob& planned, const JobFiles& files, J
   if (!refusal.empty()) throw Error("{}", refusal);
   // The texture as others see it: with its file's rounding.
   const Image texture = read_image(files.folder / record.files.front()).image;
-  const Image exemplar = picture_of(exemplar_of(run, planned.job));
-  const Scores scores = score(exemplar, texture, run.config.tile, shown_work(run));
+  const Scores scores =
+      score(statistics_of(run, planned.job), texture, run.config.tile, shown_work(run));
   write_image(files.copy_map, scores.copy_map, {});
   record.copy_map = files.copy_map.lexically_relative(run.options.output).generic_string();
   record.metrics = values_to_json(scores);

@@ -100,10 +100,17 @@ const Exemplar& exemplar_of(Run& run, const Job& job) {
     const NothingToKeep scope;
     run.loaded.reset();
     run.exemplar = {};
+    run.statistics.reset();
     if (job.exemplar) run.exemplar = load_exemplar(run.config.exemplars[*job.exemplar]);
     run.loaded = job.exemplar;
   }
   return run.exemplar;
+}
+
+ExemplarStatistics& statistics_of(Run& run, const Job& job) {
+  const Exemplar& exemplar = exemplar_of(run, job);
+  if (!run.statistics) run.statistics.emplace(picture_of(exemplar));
+  return *run.statistics;
 }
 
 Control shown_work(Run& run) {

@@ -7,6 +7,7 @@
 #include "jobs/exemplar.h"
 #include "jobs/plan.h"
 #include "jobs/runner.h"
+#include "metrics/exemplar_statistics.h"
 #include "runs/record.h"
 
 namespace gramloom {
@@ -19,12 +20,16 @@ struct Run {
   ProgressBar& bar;
   std::optional<std::size_t> loaded;
   Exemplar exemplar;
+  std::optional<ExemplarStatistics> statistics;  // of its picture, for the scores
 
   bool stopped() const { return options.stop && options.stop(); }
 };
 
 /// The exemplar of a job, empty where it has none. Throws Error.
 const Exemplar& exemplar_of(Run& run, const Job& job);
+
+/// The exemplar's side of the scores, kept as long as the exemplar. Throws Error.
+ExemplarStatistics& statistics_of(Run& run, const Job& job);
 
 /// Shows the progress of work that leaves nothing to keep when the user stops it.
 Control shown_work(Run& run);

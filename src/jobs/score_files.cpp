@@ -5,6 +5,7 @@
 #include "io/image_file.h"
 #include "jobs/text_table.h"
 #include "metrics/controls.h"
+#include "metrics/exemplar_statistics.h"
 
 namespace gramloom {
 
@@ -17,15 +18,18 @@ std::string value_text(const Scores& scores, std::string_view name) {
   return "-";
 }
 
-std::vector<ScoredImage> score_controls(const Image& exemplar, const Control& control) {
+std::vector<ScoredImage> score_controls(ExemplarStatistics& statistics, const Control& control) {
+  const Image& exemplar = statistics.exemplar();
   std::vector<ScoredImage> scored;
   const auto& names = enum_names<ControlKind>;
   for (std::size_t i = 0; i < names.size(); ++i) {
     // Twice the size: at its own, the exemplar tiled is the exemplar.
     const Size size{2 * exemplar.width, 2 * exemplar.height};
     const auto pair = control_pair(static_cast<ControlKind>(i), exemplar, size, Random(1));
+    const bool whole = pair.exemplar == exemplar;  // or a half
     scored.push_back({fmt::format("control:{}", names[i]),
-                      score(pair.exemplar, pair.image, Tile::none, control)});
+                      whole ? score(statistics, pair.image, Tile::none, control)
+                            : score(pair.exemplar, pair.image, Tile::none, control)});
   }
   return scored;
 }
@@ -35,13 +39,13 @@ std::vector<ScoredImage> score_controls(const Image& exemplar, const Control& co
 std::vector<ScoredImage> score_files(const std::filesystem::path& exemplar,
                                      const std::vector<std::string>& images, Tile tile,
                                      bool controls, const Control& control) {
-  const Image own = read_image(exemplar).image;
+  ExemplarStatistics own(read_image(exemplar).image);
   std::vector<ScoredImage> scored;
   for (const auto& name : images) {
     const Image image = read_image(name).image;
-    if (image.channels != own.channels)
+    if (image.channels != own.exemplar().channels)
       throw Error("{}: has {} channels, the exemplar {} has {}", name, image.channels,
-                  exemplar.string(), own.channels);
+                  exemplar.string(), own.exemplar().channels);
     scored.push_back({name, score(own, image, tile, control)});
   }
   if (controls)

@@ -143,8 +143,8 @@ Image draw_map(const PatchField& field, const std::vector<char>& marks, const Im
 
 }  // namespace
 
-Copying copying(const Image& exemplar, const Image& image) {
-  const PatchField field = nearest_patches(image, exemplar);
+Copying copying(const Image& exemplar, const PatchTree& tree, const Image& image) {
+  const PatchField field = nearest_patches(image, exemplar, tree);
   const std::vector<char> marks = mark_blocks(field, image, exemplar);
   const auto copies = std::count(marks.begin(), marks.end(), copied);
   const auto all = copies + std::count(marks.begin(), marks.end(), counted);

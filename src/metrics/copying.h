@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/image.h"
+#include "metrics/patch_tree.h"
 
 namespace gramloom {
 
@@ -23,8 +24,8 @@ struct Copying {
   Image map;  // see Scores::copy_map
 };
 
-/// Of pictures of components; the map has their size. Nearest patches as in nearest_patches.h;
-/// blocks lie 4 pixels apart.
-Copying copying(const Image& exemplar, const Image& image);
+/// Of pictures of components, and the exemplar's tree; the map has their size. Nearest patches as
+/// in nearest_patches.h; blocks lie 4 pixels apart.
+Copying copying(const Image& exemplar, const PatchTree& tree, const Image& image);
 
 }  // namespace gramloom

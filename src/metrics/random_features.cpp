@@ -59,6 +59,7 @@ std::vector<cv::Mat> convolved(const std::vector<cv::Mat>& inputs, int layer, in
     for (auto out = static_cast<int>(begin); out < end; ++out) {
       cv::Mat sum = cv::Mat::zeros(inputs[0].size(), CV_32F), term;
       for (std::size_t in = 0; in < inputs.size(); ++in) {
+        if (inputs[in].empty()) continue;
         cv::filter2D(
             inputs[in], term, CV_32F,
             random_filter(layer, out, static_cast<int>(in), static_cast<int>(inputs.size()), side),
@@ -114,7 +115,11 @@ RandomFeatures random_features(const Image& components) {
   while (static_cast<int>(features.scales.size()) < most_scales &&
          std::min(image.width, image.height) >= smallest_scale) {
     std::vector<cv::Mat> planes;
-    for (int c = 0; c < image.channels; ++c) planes.push_back(channel_plane(image, c));
+    for (int c = 0; c < image.channels; ++c) {
+      planes.push_back(channel_plane(image, c));
+      // A component that the picture doesn't have adds nothing.
+      if (c > 0 && cv::countNonZero(planes.back()) == 0) planes.back().release();
+    }
     std::vector<cv::Mat> maps = convolved(planes, 1, first_filters, 5);
     const std::vector<cv::Mat> second = convolved(maps, 2, second_filters, 3);
     maps.insert(maps.end(), second.begin(), second.end());

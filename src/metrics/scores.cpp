@@ -5,24 +5,17 @@
 
 #include "classic/check_input.h"
 #include "core/error.h"
-#include "metrics/bands.h"
-#include "metrics/components.h"
 #include "metrics/copying.h"
-#include "metrics/portilla_simoncelli.h"
-#include "metrics/random_features.h"
+#include "metrics/exemplar_statistics.h"
 #include "metrics/seams.h"
 #include "metrics/spectrum.h"
-#include "metrics/stsim.h"
-#include "metrics/wasserstein.h"
 #include "signal/correlation.h"
-#include "signal/fourier.h"
 
 namespace gramloom {
 
 namespace {
 
-void check_pair(const Image& exemplar, const Image& image) {
-  check_input(exemplar, Target{exemplar.size()});
+void check_image(const Image& exemplar, const Image& image) {
   if (image.empty()) throw Error("the image to score is empty");
   if (image.channels != exemplar.channels)
     throw Error("the image has {} channels, the exemplar {}: scores need the same number",
@@ -32,68 +25,71 @@ void check_pair(const Image& exemplar, const Image& image) {
     throw Error("the image to score holds values that are not finite numbers");
 }
 
-using Values = std::vector<std::pair<std::string_view, double>>;
-
-void add_pyramid_scores(Values& values, const Image& exemplar, const Image& image) {
-  const int levels = common_levels(exemplar.size(), image.size());
-  const cv::Mat e = channel_plane(exemplar, 0), x = channel_plane(image, 0);
-  const Bands of_e = bands_of(e, levels), of_x = bands_of(x, levels);
-  values.emplace_back("stsim2", stsim2(of_e, of_x));
-  values.emplace_back("portilla_simoncelli", statistics_distance(texture_statistics(e, of_e),
-                                                                 texture_statistics(x, of_x)));
-}
-
-/// How much more the image repeats itself, and the distance of the self-correlations.
-struct SelfCorrelation {
-  double distance = 0;
-  double repetition = 0;
-};
-SelfCorrelation self_correlation(const Image& exemplar, const Image& image) {
-  const ShiftCorrelation e = shift_correlation(exemplar, exemplar);
-  const ShiftCorrelation x = shift_correlation(image, image);
-  const int side = std::min(exemplar.width, exemplar.height);
-  return {autocorrelation_distance(e, exemplar.size(), x, image.size()),
-          std::max(0.0, repetition(x, side) - repetition(e, side))};
+/// The map of a picture that may have been continued to the smallest side.
+Image cropped(const Image& map, Size size) {
+  Image result(size, map.channels);
+  for (int y = 0; y < size.height; ++y)
+    std::copy_n(map.at(0, y), size.width * map.channels, result.at(0, y));
+  return result;
 }
 
 }  // namespace
 
-Scores score(const Image& exemplar, const Image& image, Tile tile, const Control& control) {
-  check_pair(exemplar, image);
+Scores score(ExemplarStatistics& exemplar, const Image& image, Tile tile, const Control& control) {
+  check_image(exemplar.exemplar(), image);
   constexpr std::int64_t steps = 7;
   std::int64_t step = 0;
   const auto next_step = [&] { control.step(step++, steps); };
   Scores scores;
-  Values& values = scores.values;
+  auto& values = scores.values;
 
   next_step();
-  const ColourFrame frame = colour_frame(exemplar);
-  const Image e = components(exemplar, frame), x = components(image, frame);
-  add_pyramid_scores(values, e, x);
+  const Image& e = exemplar.components();
+  const Image x = components(image, exemplar.frame());
+  const int side = std::min(std::min(e.width, e.height), std::min(x.width, x.height));
+  {
+    const int levels = common_levels(e.size(), x.size());
+    const auto& of_e = exemplar.of_bands(levels);
+    const auto of_x = statistics_of_bands(x, levels);
+    values.emplace_back("stsim2", stsim2(of_e.stsim, of_x.stsim));
+    values.emplace_back("portilla_simoncelli", statistics_distance(of_e.texture, of_x.texture));
+  }
   next_step();
-  values.emplace_back("random_features", gram_distance(random_features(e), random_features(x)));
+  values.emplace_back("random_features", gram_distance(exemplar.features(), random_features(x)));
   next_step();
-  values.emplace_back("patch_wasserstein", patch_wasserstein(e, x));
-  values.emplace_back("colour_wasserstein", colour_wasserstein(exemplar, image, frame.scale));
+  values.emplace_back("patch_wasserstein",
+                      patch_wasserstein(exemplar.patches(), patch_projections(x)));
+  values.emplace_back(
+      "colour_wasserstein",
+      colour_wasserstein(exemplar.colours(), colour_projections(image, exemplar.frame().scale)));
   next_step();
-  values.emplace_back("spectrum_db", spectrum_distance(e, x));
-  const SelfCorrelation self = self_correlation(e, x);
-  values.emplace_back("autocorrelation", self.distance);
+  values.emplace_back("spectrum_db",
+                      spectrum_distance(exemplar.rings(side), ring_densities(x, side)));
+  double repeats = 0;  // more than the exemplar does
+  {
+    const auto& of_e = exemplar.self_correlation();
+    const ShiftCorrelation of_x = shift_correlation(x, x);
+    values.emplace_back("autocorrelation",
+                        autocorrelation_distance(of_e.near, e.size(), of_x, x.size()));
+    repeats = std::max(0.0, repetition(of_x, std::min(e.width, e.height)) - of_e.repetition);
+  }
   next_step();
   values.emplace_back("copy_correlation", strongest_correlation(shift_correlation(x, e)));
   next_step();
-  Copying copies = copying(e, x);
+  const Copying copies = copying(e, exemplar.tree(), x);
   values.emplace_back("copied_share", copies.share);
   values.emplace_back("copy_coherence", copies.coherence);
-  values.emplace_back("repetition", self.repetition);
+  values.emplace_back("repetition", repeats);
   if (tiles_x(tile)) values.emplace_back("seam_x", seam_visibility(image, true));
   if (tiles_y(tile)) values.emplace_back("seam_y", seam_visibility(image, false));
-
-  scores.copy_map = Image(image.size(), copies.map.channels);
-  for (int y = 0; y < image.height; ++y)
-    std::copy_n(copies.map.at(0, y), image.width * copies.map.channels, scores.copy_map.at(0, y));
+  scores.copy_map = cropped(copies.map, image.size());
   control.step(steps, steps);
   return scores;
+}
+
+Scores score(const Image& exemplar, const Image& image, Tile tile, const Control& control) {
+  ExemplarStatistics statistics(exemplar);
+  return score(statistics, image, tile, control);
 }
 
 Cost estimate_scores(Size exemplar, int channels, Size image) {
@@ -113,10 +109,11 @@ Cost estimate_diversity(Size image, int channels, int seeds) {
 
 double diversity(std::span<const Image> seeds, const Control& control) {
   if (seeds.size() < 2) throw Error("diversity needs the results of at least two seeds");
+  check_input(seeds.front(), Target{seeds.front().size()});
   const ColourFrame frame = colour_frame(seeds.front());
   std::vector<Image> pictures;
   for (const Image& seed : seeds) {
-    check_pair(seeds.front(), seed);
+    check_image(seeds.front(), seed);
     pictures.push_back(components(seed, frame));
   }
   const auto count = static_cast<std::int64_t>(pictures.size());

@@ -10,6 +10,8 @@
 
 namespace gramloom {
 
+class ExemplarStatistics;
+
 /// What a score is, which way is better and what fools it: for tables, `gramloom list` and docs.
 struct Metric {
   std::string_view name;   // in JSON and CSV
@@ -38,10 +40,13 @@ struct Scores {
   Image copy_map;
 };
 
-/// Scores of an image, of any size, against an exemplar; `tile`: the axes on which it claims to
+/// Scores of an image, of any size, against an exemplar, whose part is computed once for all images
+/// (exemplar_statistics.h) or for this one; `tile`: the axes on which it claims to
 /// tile. The same bytes for any number of threads. Sides under 16 pixels are continued by mirroring
 /// (except for seams). Throws Error for an empty image, more than 64 channels, values that are not
 /// finite, or different numbers of channels; Interrupted when `control` asks to stop.
+Scores score(ExemplarStatistics& exemplar, const Image& image, Tile tile,
+             const Control& control = {});
 Scores score(const Image& exemplar, const Image& image, Tile tile, const Control& control = {});
 
 /// What score() is expected to need.

@@ -43,8 +43,30 @@ cv::Mat faded_plane(const Image& image, int channel, const std::vector<float>& w
   return plane;
 }
 
+/// The ring of each coefficient, −1 outside of all: of columns 0 to W/2 and rows 0 to H/2, the
+/// others mirror them.
+cv::Mat1i rings_of(Size size, const Rings& rings) {
+  cv::Mat1i result(size.height / 2 + 1, size.width / 2 + 1, -1);
+  parallel_for(result.rows, 16, [&](std::int64_t begin, std::int64_t end) {
+    for (auto y = static_cast<int>(begin); y < end; ++y)
+      for (int x = 0; x < result.cols; ++x) {
+        const double u = static_cast<double>(x) / size.width;
+        const double v = static_cast<double>(y) / size.height;
+        const double frequency = std::sqrt(u * u + v * v);
+        if (frequency < rings.lowest || frequency > 0.5) continue;
+        result(y, x) = std::min(rings.ring(frequency), rings.count - 1);
+      }
+  });
+  return result;
+}
+
+}  // namespace
+
 /// White noise's density is its variance, at any size.
-std::vector<double> ring_densities(const Image& image, const Rings& rings) {
+std::vector<double> ring_densities(const Image& image, int side) {
+  const double lowest = 4.0 / side;  // fewer periods: too few coefficients for an estimate
+  const Rings rings{lowest, std::max(2, static_cast<int>(std::ceil(2 * std::log2(0.5 / lowest))))};
+  const cv::Mat1i ring_at = rings_of(image.size(), rings);
   const auto bins = static_cast<std::size_t>(rings.count);
   std::vector<std::vector<double>> power(static_cast<std::size_t>(image.channels),
                                          std::vector<double>(bins));
@@ -55,12 +77,9 @@ std::vector<double> ring_densities(const Image& image, const Rings& rings) {
       const cv::Mat coefficients = fourier_coefficients(faded_plane(image, c, window_x, window_y));
       for (int y = 0; y < image.height; ++y)
         for (int x = 0; x <= image.width / 2; ++x) {
-          const double u = static_cast<double>(x) / image.width;
-          const double v = static_cast<double>(std::min(y, image.height - y)) / image.height;
-          const double frequency = std::sqrt(u * u + v * v);
-          if (frequency < rings.lowest || frequency > 0.5) continue;
-          const auto ring =
-              static_cast<std::size_t>(std::min(rings.ring(frequency), rings.count - 1));
+          const int at = ring_at(std::min(y, image.height - y), x);
+          if (at < 0) continue;
+          const auto ring = static_cast<std::size_t>(at);
           power[static_cast<std::size_t>(c)][ring] +=
               static_cast<double>(std::norm(coefficients.at<Complex>(y, x)));
           if (c == 0) samples[ring] += 1;
@@ -77,14 +96,7 @@ std::vector<double> ring_densities(const Image& image, const Rings& rings) {
   return density;
 }
 
-}  // namespace
-
-double spectrum_distance(const Image& exemplar, const Image& image) {
-  const int side =
-      std::min(std::min(exemplar.width, exemplar.height), std::min(image.width, image.height));
-  const double lowest = 4.0 / side;  // fewer periods: too few coefficients for an estimate
-  const Rings rings{lowest, std::max(2, static_cast<int>(std::ceil(2 * std::log2(0.5 / lowest))))};
-  const auto e = ring_densities(exemplar, rings), x = ring_densities(image, rings);
+double spectrum_distance(const std::vector<double>& e, const std::vector<double>& x) {
   constexpr double floor = 1e-6;  // of the exemplar's variance, which is 1
   double sum = 0;
   int used = 0;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "metrics/bands.h"
 
 namespace gramloom {
@@ -13,7 +15,15 @@ namespace gramloom {
 /// Departures: statistics of the whole image at once, which sizes that differ ask for; up to four
 /// scales rather than three; the grey values have mean 4 and deviation 1 on the exemplar, so that
 /// they don't depend on a picture's offset and contrast (see stsim_plane).
-double stsim2(const Bands& exemplar, const Bands& image);
+struct StsimStatistics {
+  struct Band {
+    double mean, deviation, down, right;  // the latter two: autocorrelations
+  };
+  std::vector<Band> bands;    // high-pass, low-pass, then the oriented ones
+  std::vector<double> pairs;  // correlations of magnitudes: of each band with those after it
+};
+StsimStatistics stsim_statistics(const Bands& bands);
+double stsim2(const StsimStatistics& exemplar, const StsimStatistics& image);
 
 /// The mean, on the exemplar, of the plane that STSIM-2 is taken of, in its deviations.
 inline constexpr double stsim_mean = 4;

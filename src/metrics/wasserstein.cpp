@@ -73,17 +73,16 @@ GRAMLOOM_SIMD void project_patch(const Image& image, int x, int y, const float* 
   std::copy_n(sums, patch_directions, result);
 }
 
-using Projections = std::vector<std::vector<float>>;  // ascending, one list a direction
-
 void sort_all(Projections& projections) {
   parallel_for(
       static_cast<std::int64_t>(projections.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+        Sorter sorter;
         for (auto d = static_cast<std::size_t>(begin); d < static_cast<std::size_t>(end); ++d)
-          Sorter().sort(projections[d]);
+          sorter.sort(projections[d]);
       });
 }
 
-Projections patch_projections(const Image& image, const std::vector<float>& directions) {
+Projections projections_at_scale(const Image& image, const std::vector<float>& directions) {
   const int columns = image.width - patch_side + 1, rows = image.height - patch_side + 1;
   const auto places = sample(std::int64_t{columns} * rows, 16384);
   Projections result(patch_directions, std::vector<float>(places.size()));
@@ -110,6 +109,41 @@ double deviation(const std::vector<float>& values) {
   return std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)));
 }
 
+}  // namespace
+
+double quantile_distance(const std::vector<float>& a, const std::vector<float>& b) {
+  const std::size_t count = std::min(a.size(), b.size());
+  const Quantiles of_a(a, count), of_b(b, count);
+  double sum = 0;
+  for (std::size_t i = 0; i < count; ++i) sum += std::abs(of_a(i) - of_b(i));
+  return sum / static_cast<double>(count);
+}
+
+std::vector<Projections> patch_projections(const Image& components) {
+  const auto directions = random_directions(patch_side * patch_side * components.channels,
+                                            patch_directions, components.channels);
+  std::vector<Projections> scales;
+  Image image = components;
+  while (true) {
+    scales.push_back(projections_at_scale(image, directions));
+    if (scales.size() == patch_scales) break;
+    image = smoothly_halved(image);
+    if (std::min(image.width, image.height) < patch_side) break;
+  }
+  return scales;
+}
+
+double patch_wasserstein(const std::vector<Projections>& exemplar,
+                         const std::vector<Projections>& image) {
+  const std::size_t scales = std::min(exemplar.size(), image.size());
+  double total = 0;
+  for (std::size_t s = 0; s < scales; ++s)
+    for (std::size_t d = 0; d < patch_directions; ++d)
+      total += quantile_distance(exemplar[s][d], image[s][d]) /
+               std::max(deviation(exemplar[s][d]), 1e-3);
+  return total / static_cast<double>(scales * patch_directions);
+}
+
 Projections colour_projections(const Image& image, double scale) {
   constexpr int most_axes = 4, random_count = 16;
   const int axes = std::min(most_axes, image.channels);
@@ -133,40 +167,11 @@ Projections colour_projections(const Image& image, double scale) {
   return result;
 }
 
-}  // namespace
-
-double quantile_distance(const std::vector<float>& a, const std::vector<float>& b) {
-  const std::size_t count = std::min(a.size(), b.size());
-  const Quantiles of_a(a, count), of_b(b, count);
-  double sum = 0;
-  for (std::size_t i = 0; i < count; ++i) sum += std::abs(of_a(i) - of_b(i));
-  return sum / static_cast<double>(count);
-}
-
-double patch_wasserstein(const Image& exemplar, const Image& image) {
-  const auto directions = random_directions(patch_side * patch_side * exemplar.channels,
-                                            patch_directions, exemplar.channels);
-  Image e = exemplar, x = image;
+double colour_wasserstein(const Projections& exemplar, const Projections& image) {
   double total = 0;
-  int scales = 0;
-  while (true) {
-    const Projections of_e = patch_projections(e, directions),
-                      of_x = patch_projections(x, directions);
-    for (std::size_t d = 0; d < patch_directions; ++d)
-      total += quantile_distance(of_e[d], of_x[d]) / std::max(deviation(of_e[d]), 1e-3);
-    if (++scales == patch_scales) break;
-    e = smoothly_halved(e);
-    x = smoothly_halved(x);
-    if (std::min({e.width, e.height, x.width, x.height}) < patch_side) break;
-  }
-  return total / (scales * patch_directions);
-}
-
-double colour_wasserstein(const Image& exemplar, const Image& image, double scale) {
-  const Projections e = colour_projections(exemplar, scale), x = colour_projections(image, scale);
-  double total = 0;
-  for (std::size_t d = 0; d < e.size(); ++d) total += quantile_distance(e[d], x[d]);
-  return total / static_cast<double>(e.size());
+  for (std::size_t d = 0; d < exemplar.size(); ++d)
+    total += quantile_distance(exemplar[d], image[d]);
+  return total / static_cast<double>(exemplar.size());
 }
 
 }  // namespace gramloom

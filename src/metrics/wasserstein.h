@@ -14,16 +14,22 @@ namespace gramloom {
 /// many ranks as the shorter one has.
 double quantile_distance(const std::vector<float>& a, const std::vector<float>& b);
 
+/// A picture's projections: a list a direction, each ascending.
+using Projections = std::vector<std::vector<float>>;
+
 /// Of 7×7 patches of components at 3 scales, halved each time (Heitz et al. 2021; Elnekave & Weiss
 /// 2022), along 64 directions of mean 0 in each component (colours have a score of their own, and a
 /// patch's mean would drown its structure), each in the exemplar's deviations along it. Of each
 /// scale 16384 patches are taken where there are more, one at random from each of as many equal
 /// runs.
-double patch_wasserstein(const Image& exemplar, const Image& image);
+std::vector<Projections> patch_projections(const Image& components);  // one a scale
+double patch_wasserstein(const std::vector<Projections>& exemplar,
+                         const std::vector<Projections>& image);
 
 /// Of pixels with all their channels, in units of the exemplar's total deviation (`scale` is its
 /// inverse), along the channels (up to 4) and 16 more directions. Of more than 65536 pixels as many
 /// are taken.
-double colour_wasserstein(const Image& exemplar, const Image& image, double scale);
+Projections colour_projections(const Image& image, double scale);
+double colour_wasserstein(const Projections& exemplar, const Projections& image);
 
 }  // namespace gramloom

@@ -14,6 +14,14 @@ namespace {
 /// An overlap with less than this part of an image's mean energy a pixel counts as flat.
 constexpr double flat_part = 1e-3;
 
+/// As the further components of a grey picture are.
+bool is_empty(const Image& image, int channel) {
+  for (std::size_t i = static_cast<std::size_t>(channel); i < image.pixels.size();
+       i += static_cast<std::size_t>(image.channels))
+    if (image.pixels[i] != 0) return false;
+  return true;
+}
+
 /// The channel less its mean.
 cv::Mat centred_plane(const Image& image, int channel) {
   cv::Mat plane = channel_plane(image, channel);
@@ -48,6 +56,7 @@ cv::Mat1f products(const Image& a, const Image& b, cv::Size padded) {
     return plane;
   };
   for (int c = 0; c < a.channels; ++c) {
+    if (is_empty(a, c)) continue;
     cv::Mat product = transformed(a, c);
     cv::mulSpectrums(product, &a == &b ? product.clone() : transformed(b, c), product, 0, true);
     sum += product;

@@ -79,7 +79,7 @@ TEST(Copying, AFlatImageSaysNothing) {
 
 TEST(Copying, TheSearchIsCloseToTryingAll) {
   const Image exemplar = grain({40, 36}, 4, 1), image = grain({30, 28}, 4, 2);
-  const PatchField found = nearest_patches(image, exemplar);
+  const PatchField found = nearest_patches(image, exemplar, PatchTree(exemplar));
   PatchField best = found;
   search_all(best, image, exemplar, PatchPenalty(found.size, patch_origins(exemplar.size())));
   double sum_found = 0, sum_best = 0;
@@ -93,7 +93,8 @@ TEST(Copying, TheSearchIsCloseToTryingAll) {
 
 TEST(Copying, WhatIsExactlyThereIsFound) {
   const Image exemplar = grain({90, 80}, 4, 1);
-  const PatchField field = nearest_patches(window(exemplar, 13, 21, {50, 40}), exemplar);
+  const PatchField field =
+      nearest_patches(window(exemplar, 13, 21, {50, 40}), exemplar, PatchTree(exemplar));
   for (int y = 0; y < field.size.height; ++y)
     for (int x = 0; x < field.size.width; ++x)
       ASSERT_EQ(field.nearest[field.index(x, y)], (PatchOrigin{x + 13, y + 21}));
