@@ -22,6 +22,9 @@ struct SavedState {
 /// Limited-memory BFGS (Liu, Nocedal 1989) with a line search for the strong Wolfe conditions
 /// (Nocedal, Wright 2006, algorithms 3.5 and 3.6 with cubic interpolation, c₁ = 1e-4, c₂ = 0.9).
 /// x is changed in place; it is the optimiser's vector and the picture at once.
+/// Not torch::optim::LBFGS: in a single call it gets as far with as many evaluations, but step by
+/// step, as reports and checkpoints need it, it evaluates each start again (after 100 evaluations
+/// 1.01 to 1.7 times this one's loss on six problems), and saving its state failed with 1.13.
 class Lbfgs {
  public:
   explicit Lbfgs(int history) : history_(history) {}
