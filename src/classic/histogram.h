@@ -3,10 +3,10 @@
 #include <string_view>
 #include <tuple>
 
+#include "core/abilities.h"
 #include "core/fields.h"
-#include "core/image.h"
 #include "core/progress.h"
-#include "core/random.h"
+#include "core/request.h"
 
 namespace gramloom {
 
@@ -17,12 +17,12 @@ struct HistogramParams {
   static constexpr std::string_view kind = "histogram";
   static constexpr std::string_view summary =
       "independent pixels drawn from the exemplar's colours (no structure)";
+  static constexpr Abilities abilities{Ability::exemplar, Ability::source};
   static constexpr auto fields() { return std::tuple{}; }
 };
 
-/// Throws Error for input that check_input() refuses.
-Texture synthesise(const HistogramParams&, const Image& exemplar, const Target&, Random,
-                   const Control&);
-Cost estimate(const HistogramParams&, Size exemplar, int channels, const Target&);
+/// Throws Error for input that check_request() refuses.
+Texture synthesise(const HistogramParams& params, const Request& request, const Control& control);
+Cost estimate(const HistogramParams& params, const RequestSize& request);
 
 }  // namespace gramloom

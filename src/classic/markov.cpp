@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "classic/check_input.h"
 #include "classic/context_table.h"
 #include "classic/palette.h"
 
@@ -99,9 +98,10 @@ bool near_an_end(int i, int length) { return i < seam_width || i >= length - sea
 
 }  // namespace
 
-Texture synthesise(const MarkovParams& params, const Image& exemplar, const Target& target,
-                   Random random, const Control& control) {
-  check_input(exemplar, target);
+Texture synthesise(const MarkovParams& params, const Request& request, const Control& control) {
+  check_request<MarkovParams>(request);
+  const Image& exemplar = request.exemplars.front().image;
+  const Target& target = request.target;
   // Rows of their own need no care where the top meets the bottom.
   const bool rows_depend = params.neighbourhood == MarkovNeighbourhood::causal;
   const bool seam_x = tiles_x(target.tile), seam_y = tiles_y(target.tile) && rows_depend;
@@ -112,13 +112,13 @@ Texture synthesise(const MarkovParams& params, const Image& exemplar, const Targ
   const std::int64_t steps = std::int64_t{1 + rounds} * size.height;
   control.step(0, steps);
 
-  const Palette palette = learn_palette(exemplar, params.colours, random.stream(0));
+  const Palette palette = learn_palette(exemplar, params.colours, request.random.stream(0));
   const auto symbols = nearest_colours(exemplar, palette);
   const auto offsets = context_offsets(params);
   Canvas canvas(size, target.tile, symbols);
   const ContextTable preceding(symbols, exemplar.size(), offsets);
   for (int y = 0; y < size.height; ++y) {
-    Random row = random.stream(1).stream(static_cast<std::uint64_t>(y));
+    Random row = request.random.stream(1).stream(static_cast<std::uint64_t>(y));
     for (int x = 0; x < size.width; ++x) canvas.draw(x, y, preceding, row);
     control.step(y + 1, steps);
   }
@@ -127,7 +127,7 @@ Texture synthesise(const MarkovParams& params, const Image& exemplar, const Targ
     const ContextTable around_y(symbols, exemplar.size(), both_sides(offsets, false));
     for (int round = 1; round <= rounds; ++round)
       for (int y = 0; y < size.height; ++y) {
-        Random row = random.stream(static_cast<std::uint64_t>(1 + round))
+        Random row = request.random.stream(static_cast<std::uint64_t>(1 + round))
                          .stream(static_cast<std::uint64_t>(y));
         for (int x = 0; x < size.width; ++x) {
           if (seam_y && near_an_end(y, size.height))
@@ -148,10 +148,13 @@ Texture synthesise(const MarkovParams& params, const Image& exemplar, const Targ
   return {std::move(result), {}};
 }
 
-Cost estimate(const MarkovParams& params, Size exemplar, int channels, const Target& target) {
+Cost estimate(const MarkovParams& params, const RequestSize& request) {
+  check_request<MarkovParams>(request);
+  const Size exemplar = request.exemplars.front().size;
+  const int channels = request.exemplars.front().channels;
   const double in = static_cast<double>(exemplar.width) * exemplar.height;
   const double out =
-      static_cast<double>(target.size.width + margin) * (target.size.height + margin);
+      static_cast<double>(request.size.width + margin) * (request.size.height + margin);
   return {4 * channels * (in + out) + in * (9 + 3 * params.order) + 4 * out,
           in * (1e-8 * params.order + 1e-9 * params.colours * channels) +
               out * 4e-8 * (1 + params.order)};

@@ -4,10 +4,10 @@
 #include <string_view>
 #include <tuple>
 
+#include "core/abilities.h"
 #include "core/fields.h"
-#include "core/image.h"
 #include "core/progress.h"
-#include "core/random.h"
+#include "core/request.h"
 
 namespace gramloom {
 
@@ -35,6 +35,7 @@ struct MarkovParams {
   static constexpr std::string_view kind = "markov";
   static constexpr std::string_view summary =
       "pixels drawn given the preceding ones in scan order (streaks, or small structure)";
+  static constexpr Abilities abilities{Ability::exemplar, Ability::source};
   int order = 4;
   int colours = 16;
   MarkovNeighbourhood neighbourhood = MarkovNeighbourhood::row;
@@ -51,9 +52,8 @@ struct MarkovParams {
   }
 };
 
-/// Throws Error for input that check_input() refuses.
-Texture synthesise(const MarkovParams&, const Image& exemplar, const Target&, Random,
-                   const Control&);
-Cost estimate(const MarkovParams&, Size exemplar, int channels, const Target&);
+/// Throws Error for input that check_request() refuses.
+Texture synthesise(const MarkovParams& params, const Request& request, const Control& control);
+Cost estimate(const MarkovParams& params, const RequestSize& request);
 
 }  // namespace gramloom

@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "classic/check_input.h"
 #include "classic/patch_features.h"
 #include "classic/patch_field.h"
 #include "classic/patch_penalty.h"
@@ -73,7 +72,8 @@ Image first_canvas(const Level& level, Tile tile, Random random) {
                               .candidates = 1,
                               .variety = 0,
                               .guidance = 0};
-  const Image quilt = synthesise(params, level.exemplar, {level.texture, tile}, random, {}).image;
+  const Image quilt =
+      synthesise(params, {{{level.exemplar}}, {level.texture, tile}, random}, {}).image;
   const Size patches = patches_of(level.texture, tile);
   Image canvas(patches.width + border, patches.height + border, field_features);
   for (int y = 0; y < canvas.height; ++y)
@@ -121,10 +121,11 @@ Image picked(const Image& exemplar, const std::vector<PatchOrigin>& pixels, Size
 
 }  // namespace
 
-Texture synthesise(const PatchmatchParams& params, const Image& exemplar, const Target& target,
-                   Random random, const Control& control) {
+Texture synthesise(const PatchmatchParams& params, const Request& request, const Control& control) {
   check_fields(params);
-  check_input(exemplar, target);
+  check_request<PatchmatchParams>(request);
+  const Image& exemplar = request.exemplars.front().image;
+  const Target& target = request.target;
   const Image source = at_least(exemplar, smallest_side);
   // A texture that does not tile may be cut from a larger one; one that tiles wraps at any size.
   const Size size{
@@ -140,8 +141,8 @@ Texture synthesise(const PatchmatchParams& params, const Image& exemplar, const 
     const Size origins = patch_origins(level->exemplar.size());
     PatchPenalty penalty(patches_of(level->texture, target.tile), origins);
     if (level == levels.rbegin()) {
-      field = random_field(penalty.field, target.tile, origins, random.stream(0));
-      canvas = first_canvas(*level, target.tile, random.stream(1));
+      field = random_field(penalty.field, target.tile, origins, request.random.stream(0));
+      canvas = first_canvas(*level, target.tile, request.random.stream(1));
       if (is_small(*level)) search_all(field, canvas, level->exemplar, penalty);
     } else {
       field = refined(field, *level);
@@ -149,7 +150,7 @@ Texture synthesise(const PatchmatchParams& params, const Image& exemplar, const 
     }
     for (int i = 0; i < level->iterations; ++i) {
       improve(field, canvas, level->exemplar, penalty, i, params.tries,
-              random.stream(2).stream(static_cast<std::uint64_t>(progress.step)));
+              request.random.stream(2).stream(static_cast<std::uint64_t>(progress.step)));
       progress.loss = robust_energy(field, noise_floor);
       canvas = vote(field, level->exemplar, noise_floor);
       update(penalty, field, params.uniformity, params.largest_copy);
@@ -161,12 +162,15 @@ Texture synthesise(const PatchmatchParams& params, const Image& exemplar, const 
   return {picked(source, pixels, size, target.size), {}};
 }
 
-Cost estimate(const PatchmatchParams& params, Size exemplar, int channels, const Target& target) {
+Cost estimate(const PatchmatchParams& params, const RequestSize& request) {
+  check_request<PatchmatchParams>(request);
+  const Size exemplar = request.exemplars.front().size;
+  const int channels = request.exemplars.front().channels;
   const auto area = [](double width, double height) { return width * height; };
-  const double pixels = area(target.size.width, target.size.height);
+  const double pixels = area(request.size.width, request.size.height);
   const double samples = area(exemplar.width, exemplar.height);
   const double shifts =
-      area(target.size.width + exemplar.width, target.size.height + exemplar.height);
+      area(request.size.width + exemplar.width, request.size.height + exemplar.height);
   // A level has a quarter of the work of the next finer one, but more iterations.
   const double iterations = params.iterations * 4.0 / 3 + more_iterations * 4.0 / 9;
   return {.bytes = pixels * (72 + 4.0 * channels) + samples * (32 + 4.0 * channels) + shifts * 8,

@@ -3,10 +3,10 @@
 #include <string_view>
 #include <tuple>
 
+#include "core/abilities.h"
 #include "core/fields.h"
-#include "core/image.h"
 #include "core/progress.h"
-#include "core/random.h"
+#include "core/request.h"
 
 namespace gramloom {
 
@@ -26,6 +26,7 @@ struct PatchmatchParams {
   static constexpr std::string_view summary =
       "all overlapping patches optimised together, coarse to fine (Kwatra et al. 2005, Barnes et "
       "al. 2009, Kaspar et al. 2015)";
+  static constexpr Abilities abilities{Ability::exemplar, Ability::source};
 
   int levels = 0;
   int iterations = 10;
@@ -72,10 +73,9 @@ struct PatchmatchParams {
 /// The texture. An exemplar of fewer than 16 pixels on a side is continued by mirroring.
 /// Progress counts iterations; the loss is Kwatra's robust energy on the current level.
 /// Throws Error for an empty exemplar or target, Interrupted when `control` asks to stop.
-Texture synthesise(const PatchmatchParams& params, const Image& exemplar, const Target& target,
-                   Random random, const Control& control);
+Texture synthesise(const PatchmatchParams& params, const Request& request, const Control& control);
 
 /// Peak memory and time of that synthesis.
-Cost estimate(const PatchmatchParams& params, Size exemplar, int channels, const Target& target);
+Cost estimate(const PatchmatchParams& params, const RequestSize& request);
 
 }  // namespace gramloom

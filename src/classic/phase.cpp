@@ -6,7 +6,6 @@
 #include <numbers>
 #include <vector>
 
-#include "classic/check_input.h"
 #include "core/threads.h"
 #include "signal/fourier.h"
 
@@ -100,13 +99,14 @@ void for_each_channel(const Image& image, const std::function<void(int)>& body) 
 
 }  // namespace
 
-Texture synthesise(const PhaseParams& params, const Image& exemplar, const Target& target,
-                   Random random, const Control& control) {
-  check_input(exemplar, target);
+Texture synthesise(const PhaseParams& params, const Request& request, const Control& control) {
+  check_request<PhaseParams>(request);
+  const Image& exemplar = request.exemplars.front().image;
+  const Target& target = request.target;
   const Size period{period_for(exemplar.width, target.size.width, tiles_x(target.tile)),
                     period_for(exemplar.height, target.size.height, tiles_y(target.tile))};
   control.step(0, 2);
-  const cv::Mat phases = random_phases(period, random);
+  const cv::Mat phases = random_phases(period, request.random);
   control.step(1, 2);
   Image result(target.size, exemplar.channels);
   for_each_channel(result, [&](int c) {
@@ -119,10 +119,13 @@ Texture synthesise(const PhaseParams& params, const Image& exemplar, const Targe
   return {std::move(result), {}};
 }
 
-Cost estimate(const PhaseParams&, Size exemplar, int channels, const Target& target) {
+Cost estimate(const PhaseParams&, const RequestSize& request) {
+  check_request<PhaseParams>(request);
+  const Size exemplar = request.exemplars.front().size;
+  const int channels = request.exemplars.front().channels;
   const double in = static_cast<double>(exemplar.width) * exemplar.height;
-  const double out = static_cast<double>(std::max(target.size.width, exemplar.width)) *
-                     std::max(target.size.height, exemplar.height);
+  const double out = static_cast<double>(std::max(request.size.width, exemplar.width)) *
+                     std::max(request.size.height, exemplar.height);
   const int in_flight = std::min(channels, thread_count());
   // Each channel in flight: its plane, spectrum and the transform's own copy; the phases are
   // shared.

@@ -3,10 +3,10 @@
 #include <string_view>
 #include <tuple>
 
+#include "core/abilities.h"
 #include "core/fields.h"
-#include "core/image.h"
 #include "core/progress.h"
-#include "core/random.h"
+#include "core/request.h"
 
 namespace gramloom {
 
@@ -26,6 +26,7 @@ struct PhaseParams {
   static constexpr std::string_view kind = "phase";
   static constexpr std::string_view summary =
       "the exemplar's spectrum with random phases (grain without structure)";
+  static constexpr Abilities abilities{Ability::exemplar};
   double fade = 0.1;
   static constexpr auto fields() {
     return std::tuple{
@@ -37,10 +38,9 @@ struct PhaseParams {
   }
 };
 
-/// Throws Error for input that check_input() refuses.
-Texture synthesise(const PhaseParams&, const Image& exemplar, const Target&, Random,
-                   const Control&);
-Cost estimate(const PhaseParams&, Size exemplar, int channels, const Target&);
+/// Throws Error for input that check_request() refuses.
+Texture synthesise(const PhaseParams& params, const Request& request, const Control& control);
+Cost estimate(const PhaseParams& params, const RequestSize& request);
 
 /// The periodic component of each channel of an image (Moisan 2011): the same mean, and opposite
 /// edges that meet.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "classic/check_input.h"
 #include "classic/pixel_algorithms.h"
 
 namespace gramloom {
@@ -24,16 +23,21 @@ pixel::Canvas sources(const PixelParams& params, const Image& exemplar, const Ta
 
 }  // namespace
 
-Texture synthesise(const PixelParams& params, const Image& exemplar, const Target& target,
-                   Random random, const Control& control) {
+Texture synthesise(const PixelParams& params, const Request& request, const Control& control) {
   check_fields(params);
-  check_input(exemplar, target);
-  return {pixel::colours_of(sources(params, exemplar, target, random, control), exemplar), {}};
+  check_request<PixelParams>(request);
+  const Image& exemplar = request.exemplars.front().image;
+  const Target& target = request.target;
+  return {pixel::colours_of(sources(params, exemplar, target, request.random, control), exemplar),
+          {}};
 }
 
-Cost estimate(const PixelParams& params, Size exemplar, int channels, const Target& target) {
+Cost estimate(const PixelParams& params, const RequestSize& request) {
+  check_request<PixelParams>(request);
+  const Size exemplar = request.exemplars.front().size;
+  const int channels = request.exemplars.front().channels;
   const double from = static_cast<double>(exemplar.width) * exemplar.height;
-  const double to = static_cast<double>(target.size.width) * target.size.height;
+  const double to = static_cast<double>(request.size.width) * request.size.height;
   const double compared = std::min(channels, 4);
   const double candidates = params.candidates;
   const double window = std::pow(2 * params.radius + 1, 2);

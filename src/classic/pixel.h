@@ -4,10 +4,10 @@
 #include <string_view>
 #include <tuple>
 
+#include "core/abilities.h"
 #include "core/fields.h"
-#include "core/image.h"
 #include "core/progress.h"
-#include "core/random.h"
+#include "core/request.h"
 
 namespace gramloom {
 
@@ -52,6 +52,7 @@ struct PixelParams {
   static constexpr std::string_view summary =
       "pixels of the exemplar whose neighbourhoods fit (Lefebvre & Hoppe 2005; Wei & Levoy 2000; "
       "Efros & Leung 1999)";
+  static constexpr Abilities abilities{Ability::exemplar, Ability::source};
 
   PixelAlgorithm algorithm = PixelAlgorithm::lefebvre_hoppe;
   PixelSearch search = PixelSearch::coherence;
@@ -112,10 +113,9 @@ struct PixelParams {
 /// The same bytes for any number of threads. Throws ConfigError for a parameter out of range, Error
 /// for an exemplar that is empty, not finite or of more than 64 channels or a size without pixels,
 /// Interrupted when `control` asks to stop.
-Texture synthesise(const PixelParams& params, const Image& exemplar, const Target& target,
-                   Random random, const Control& control);
+Texture synthesise(const PixelParams& params, const Request& request, const Control& control);
 
 /// Fitted to measurements: within a factor of 2 or so.
-Cost estimate(const PixelParams& params, Size exemplar, int channels, const Target& target);
+Cost estimate(const PixelParams& params, const RequestSize& request);
 
 }  // namespace gramloom

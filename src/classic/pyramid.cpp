@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "classic/check_input.h"
 #include "core/threads.h"
 #include "signal/colour_pca.h"
 #include "signal/fourier.h"
@@ -100,9 +99,10 @@ int usable_levels(int wanted, Size a, Size b) {
 
 }  // namespace
 
-Texture synthesise(const PyramidParams& params, const Image& exemplar, const Target& target,
-                   Random random, const Control& control) {
-  check_input(exemplar, target);
+Texture synthesise(const PyramidParams& params, const Request& request, const Control& control) {
+  check_request<PyramidParams>(request);
+  const Image& exemplar = request.exemplars.front().image;
+  const Target& target = request.target;
   const Size period{period_for(exemplar.width, target.size.width, tiles_x(target.tile)),
                     period_for(exemplar.height, target.size.height, tiles_y(target.tile))};
   const std::int64_t steps = std::int64_t{exemplar.channels} * params.iterations;
@@ -120,7 +120,7 @@ Texture synthesise(const PyramidParams& params, const Image& exemplar, const Tar
     Histograms histograms;
     if (!flat) {
       histograms = analyse(channel_plane(axes, c), from);
-      plane = white_noise(period, random.stream(static_cast<std::uint64_t>(c)));
+      plane = white_noise(period, request.random.stream(static_cast<std::uint64_t>(c)));
       match_values(values_of(plane), histograms.pixels);
     }
     for (int i = 0; i < params.iterations; ++i) {
@@ -140,10 +140,13 @@ Texture synthesise(const PyramidParams& params, const Image& exemplar, const Tar
   return {std::move(result), {}};
 }
 
-Cost estimate(const PyramidParams& params, Size exemplar, int channels, const Target& target) {
+Cost estimate(const PyramidParams& params, const RequestSize& request) {
+  check_request<PyramidParams>(request);
+  const Size exemplar = request.exemplars.front().size;
+  const int channels = request.exemplars.front().channels;
   const double in = static_cast<double>(exemplar.width) * exemplar.height;
-  const double out = static_cast<double>(std::max(target.size.width, exemplar.width)) *
-                     std::max(target.size.height, exemplar.height);
+  const double out = static_cast<double>(std::max(request.size.width, exemplar.width)) *
+                     std::max(request.size.height, exemplar.height);
   // Samples of all bands, in images: level 0 and the high-pass in full, a quarter a level down.
   const double bands = params.orientations * 4.0 / 3 + 1.1;
   const auto in_flight = static_cast<double>(bands_at_once());

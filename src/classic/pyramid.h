@@ -3,10 +3,10 @@
 #include <string_view>
 #include <tuple>
 
+#include "core/abilities.h"
 #include "core/fields.h"
-#include "core/image.h"
 #include "core/progress.h"
-#include "core/random.h"
+#include "core/request.h"
 
 namespace gramloom {
 
@@ -25,6 +25,7 @@ struct PyramidParams {
   static constexpr std::string_view kind = "pyramid";
   static constexpr std::string_view summary =
       "noise with the histograms of the exemplar's steerable pyramid (rough surfaces)";
+  static constexpr Abilities abilities{Ability::exemplar};
   int levels = 5;
   int orientations = 4;
   int iterations = 5;
@@ -45,9 +46,8 @@ struct PyramidParams {
   }
 };
 
-/// Throws Error for input that check_input() refuses.
-Texture synthesise(const PyramidParams&, const Image& exemplar, const Target&, Random,
-                   const Control&);
-Cost estimate(const PyramidParams&, Size exemplar, int channels, const Target&);
+/// Throws Error for input that check_request() refuses.
+Texture synthesise(const PyramidParams& params, const Request& request, const Control& control);
+Cost estimate(const PyramidParams& params, const RequestSize& request);
 
 }  // namespace gramloom

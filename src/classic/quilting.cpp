@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "classic/check_input.h"
 #include "classic/patch_features.h"
 #include "classic/patch_grid.h"
 #include "classic/quilt.h"
@@ -57,26 +56,31 @@ std::optional<QuiltGuide> make_guide(const QuiltingParams& params, const Image& 
 
 }  // namespace
 
-Texture synthesise(const QuiltingParams& params, const Image& exemplar, const Target& target,
-                   Random random, const Control& control) {
+Texture synthesise(const QuiltingParams& params, const Request& request, const Control& control) {
   check_fields(params);
-  check_input(exemplar, target);
+  check_request<QuiltingParams>(request);
+  const Image& exemplar = request.exemplars.front().image;
+  const Target& target = request.target;
   const Grid grid = make_grid(params, patch_side(params, exemplar.size()), exemplar.size(), target);
   const QuiltRules rules{params.tolerance, params.candidates, params.variety, params.guidance,
                          params.feather};
   const std::int64_t patches = std::int64_t{grid.x.count()} * grid.y.count();
   control.step(0, patches);
-  const auto guide = make_guide(params, exemplar, grid, target, random.stream(0));
+  const auto guide = make_guide(params, exemplar, grid, target, request.random.stream(0));
   Quilt quilt =
-      lay_quilt(exemplar, grid.x, grid.y, rules, guide ? &*guide : nullptr, random.stream(1),
-                [&](std::int64_t laid) { control.step(laid, patches); });
+      lay_quilt(exemplar, grid.x, grid.y, rules, guide ? &*guide : nullptr,
+                request.random.stream(1), [&](std::int64_t laid) { control.step(laid, patches); });
   return {std::move(quilt.canvas), {}};
 }
 
-Cost estimate(const QuiltingParams& params, Size exemplar, int channels, const Target& target) {
-  const auto [x, y] = make_grid(params, patch_side(params, exemplar), exemplar, target);
+Cost estimate(const QuiltingParams& params, const RequestSize& request) {
+  check_request<QuiltingParams>(request);
+  const Size exemplar = request.exemplars.front().size;
+  const int channels = request.exemplars.front().channels;
+  const auto [x, y] =
+      make_grid(params, patch_side(params, exemplar), exemplar, {request.size, request.tile});
   const double pixels = static_cast<double>(exemplar.width) * exemplar.height;
-  const double result = static_cast<double>(target.size.width) * target.size.height;
+  const double result = static_cast<double>(request.size.width) * request.size.height;
   const double patches = static_cast<double>(x.count()) * y.count();
   const double overlap = x.before(x.count() - 1) + y.before(y.count() - 1);
   const double cuts = overlap * (x.patch + y.patch) * (channels + 3) * params.candidates;

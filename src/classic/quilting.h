@@ -3,10 +3,10 @@
 #include <string_view>
 #include <tuple>
 
+#include "core/abilities.h"
 #include "core/fields.h"
-#include "core/image.h"
 #include "core/progress.h"
-#include "core/random.h"
+#include "core/request.h"
 
 namespace gramloom {
 
@@ -30,6 +30,7 @@ struct QuiltingParams {
   static constexpr std::string_view kind = "quilting";
   static constexpr std::string_view summary =
       "overlapping patches cut along the path of least error (Efros & Freeman 2001)";
+  static constexpr Abilities abilities{Ability::exemplar, Ability::source};
 
   int patch_size = 0;
   double overlap = 0.45;
@@ -86,10 +87,9 @@ struct QuiltingParams {
 
 /// The texture. An exemplar smaller than a patch makes the patches smaller.
 /// Throws Error for an empty exemplar or target, Interrupted when `control` asks to stop.
-Texture synthesise(const QuiltingParams& params, const Image& exemplar, const Target& target,
-                   Random random, const Control& control);
+Texture synthesise(const QuiltingParams& params, const Request& request, const Control& control);
 
 /// Peak memory and time of that synthesis.
-Cost estimate(const QuiltingParams& params, Size exemplar, int channels, const Target& target);
+Cost estimate(const QuiltingParams& params, const RequestSize& request);
 
 }  // namespace gramloom

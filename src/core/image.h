@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
-#include <string>
 #include <vector>
 
 namespace gramloom {
@@ -67,18 +65,5 @@ inline bool tiles_y(Tile tile) { return tile == Tile::y || tile == Tile::both; }
 inline Tile wrapping(bool x, bool y) {
   return x ? (y ? Tile::both : Tile::x) : (y ? Tile::y : Tile::none);
 }
-
-/// What is wanted of a synthesis: the size of the result and which of its edges meet.
-struct Target {
-  Size size{256, 256};
-  Tile tile = Tile::none;
-};
-
-/// What a method returns: the texture, and other maps of the same surface by name ("height",
-/// "mask", "frame_0001"), each written beside it.
-struct Texture {
-  Image image;
-  std::map<std::string, Image> maps;
-};
 
 }  // namespace gramloom

@@ -1,6 +1,7 @@
 #include "jobs/exemplar.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "signal/resize.h"
@@ -19,17 +20,17 @@ void check_size(const ExemplarEntry& entry, const Image& picture, const fs::path
                     picture.width, picture.height);
 }
 
-// Brings a map whose values leave 0 to 1 there; the layer says from where.
-void fit_into_unit_range(Image& map, ExemplarLayer& layer) {
+// Brings a map whose values leave 0 to 1 there; `file` says from where.
+void fit_into_unit_range(Image& map, ExemplarFile& file) {
   const auto [least, most] = std::minmax_element(map.pixels.begin(), map.pixels.end());
   const float low = *least;
   const float high = *most;
   if (low >= 0 && high <= 1) return;
-  layer.low = low;
-  layer.high = high > low
-                   ? high
-                   : low + std::max(1.0f, std::abs(low));  // a flat map has no range of its own
-  for (float& value : map.pixels) value = (value - layer.low) / (layer.high - layer.low);
+  file.low = low;
+  file.high = high > low
+                  ? high
+                  : low + std::max(1.0f, std::abs(low));  // a flat map has no range of its own
+  for (float& value : map.pixels) value = (value - file.low) / (file.high - file.low);
 }
 
 // `image` with the channels of `more` (of its size) after its own.
@@ -43,48 +44,83 @@ Image join(const Image& image, const Image& more) {
   return joined;
 }
 
-}  // namespace
-
-Exemplar load_exemplar(const ExemplarEntry& entry) {
-  ImageFile picture = read_image(entry.image);
-  Exemplar exemplar{std::move(picture.image), {}};
-  exemplar.layers.push_back({"", exemplar.image.channels, std::move(picture.encoding)});
-  for (const auto& [name, file] : entry.maps) {
-    ImageFile map = read_image(file);
-    check_size(entry, exemplar.image, file, map.image);
-    ExemplarLayer layer{name, map.image.channels, std::move(map.encoding)};
-    fit_into_unit_range(map.image, layer);
-    exemplar.image = join(exemplar.image, map.image);
-    exemplar.layers.push_back(std::move(layer));
-  }
-  // Each channel is scaled by itself: joined or not, it comes out the same.
-  if (entry.max_side) exemplar.image = fit_longer_side(exemplar.image, *entry.max_side);
-  return exemplar;
+MapKind kind_of_map(const ExemplarFile& file) {
+  std::string name = file.map;
+  std::ranges::transform(name, name.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto says = [&](const char* word) { return name.find(word) != std::string::npos; };
+  if (says("normal") && file.channels == 3) return MapKind::normal;
+  if (says("alpha") || says("opacity")) return MapKind::alpha;
+  return MapKind::scalar;
 }
 
-int channels_of(const std::vector<ExemplarLayer>& layers) {
+}  // namespace
+
+LoadedExemplar load_exemplar(const ExemplarEntry& entry) {
+  ImageFile picture = read_image(entry.image);
+  LoadedExemplar loaded{{std::move(picture.image)}, {}};
+  Image& image = loaded.exemplar.image;
+  loaded.files.push_back({"", image.channels, std::move(picture.encoding)});
+  for (const auto& [name, path] : entry.maps) {
+    ImageFile map = read_image(path);
+    check_size(entry, image, path, map.image);
+    ExemplarFile file{name, map.image.channels, std::move(map.encoding)};
+    fit_into_unit_range(map.image, file);
+    image = join(image, map.image);
+    loaded.files.push_back(std::move(file));
+  }
+  // Each channel is scaled by itself: joined or not, it comes out the same.
+  if (entry.max_side) image = fit_longer_side(image, *entry.max_side);
+  loaded.exemplar.layers = layers_of(loaded.files);
+  return loaded;
+}
+
+std::vector<Layer> layers_of(const std::vector<ExemplarFile>& files) {
+  std::vector<Layer> layers;
+  int first = 0;
+  const auto add = [&](const ExemplarFile& file, MapKind kind, int count) {
+    if (count > 0) layers.push_back({file.map, kind, first, count});
+    first += std::max(0, count);
+  };
+  for (const ExemplarFile& file : files) {
+    if (!file.map.empty()) {
+      add(file, kind_of_map(file), file.channels);
+      continue;
+    }
+    const std::vector<std::string>& names = file.encoding.channel_names;
+    const int alpha = file.channels > 1 && !names.empty() && names.back() == "A" ? 1 : 0;
+    add(file, MapKind::colour, file.channels - alpha);
+    add(file, MapKind::alpha, alpha);
+  }
+  return layers;
+}
+
+int channels_of(const std::vector<ExemplarFile>& files) {
   int channels = 0;
-  for (const ExemplarLayer& layer : layers) channels += layer.channels;
+  for (const ExemplarFile& file : files) channels += file.channels;
   return channels;
 }
 
 Image picture_of(const Exemplar& exemplar) {
-  return extract_channels(exemplar.image, 0, exemplar.layers.at(0).channels);
+  int channels = 0;
+  for (const Layer& layer : exemplar.layers)
+    if (layer.name.empty()) channels += layer.count;
+  return extract_channels(exemplar.image, 0, channels);
 }
 
-Texture split_layers(Texture texture, const std::vector<ExemplarLayer>& layers) {
-  if (layers.size() < 2) return texture;
+Texture split_layers(Texture texture, const std::vector<ExemplarFile>& files) {
+  if (files.size() < 2) return texture;
   int first = 0;
-  const auto next = [&](const ExemplarLayer& layer) {
-    Image image = extract_channels(texture.image, first, layer.channels);
-    first += layer.channels;
-    if (layer.low != 0 || layer.high != 1)
-      for (float& value : image.pixels) value = layer.low + value * (layer.high - layer.low);
+  const auto next = [&](const ExemplarFile& file) {
+    Image image = extract_channels(texture.image, first, file.channels);
+    first += file.channels;
+    if (file.low != 0 || file.high != 1)
+      for (float& value : image.pixels) value = file.low + value * (file.high - file.low);
     return image;
   };
-  Image picture = next(layers.front());
-  for (auto layer = layers.begin() + 1; layer != layers.end(); ++layer)
-    texture.maps[layer->map] = next(*layer);
+  Image picture = next(files.front());
+  for (auto file = files.begin() + 1; file != files.end(); ++file)
+    texture.maps[file->map] = next(*file);
   texture.image = std::move(picture);
   return texture;
 }

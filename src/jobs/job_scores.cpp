@@ -74,7 +74,7 @@ JobGroup finished_jobs(const Run& run, const JobGroup& jobs) {
 
 double diversity_of(Run& run, const JobGroup& jobs) {
   const Job& first = jobs.front()->job;
-  const int channels = run.plan.exemplars[*first.exemplar].layers.front().channels;
+  const int channels = run.plan.exemplars[*first.exemplar].files.front().channels;
   const Cost cost = estimate_diversity(run.config.size, channels, static_cast<int>(jobs.size()));
   const std::string refusal = diversity_refusal(cost, available_memory());
   if (!refusal.empty()) throw Error("{}", refusal);

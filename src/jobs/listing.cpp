@@ -28,6 +28,14 @@ std::vector<Row> parameter_rows() {
   return rows;
 }
 
+// "takes: exemplar, mask", or what a method of formulas takes.
+std::string ability_line(Abilities abilities) {
+  std::vector<std::string_view> words;
+  for (std::size_t i = 0; i < enum_names<Ability>.size(); ++i)
+    if (abilities.has(static_cast<Ability>(i))) words.push_back(enum_names<Ability>[i]);
+  return words.empty() ? "takes no exemplar" : fmt::format("can: {}", fmt::join(words, ", "));
+}
+
 template <class Textures>
 std::string list_textures() {
   std::string text;
@@ -61,6 +69,7 @@ std::string list_methods() {
   std::string text;
   for_each_alternative<Method>([&]<class Params>(std::type_identity<Params>) {
     text += fmt::format("{}: {}\n", Params::kind, Params::summary);
+    text += fmt::format("  {}\n", ability_line(Params::abilities));
     std::vector<Row> rows = parameter_rows<Params>();
     if constexpr (HasVariant<Params>)
       rows.insert(rows.begin(),

@@ -1,37 +1,49 @@
 #include "jobs/methods.h"
 
+#include "core/variants.h"
+
 namespace gramloom {
+
+namespace {
+
+// The method's own refusal, and what to take instead.
+void refuse_lacks(const Method& method, const RequestSize& request) {
+  const auto lack = find_lack(kind_of(method), abilities_of(method), request);
+  if (!lack) return;
+  const auto others = methods_with(lack->ability);
+  if (others.empty()) throw Error("{}; no method can yet", lack->refusal);
+  throw Error("{}; methods that can: {}", lack->refusal, fmt::join(others, ", "));
+}
+
+}  // namespace
 
 std::string_view kind_of(const Method& method) {
   return std::visit([](const auto& params) { return std::decay_t<decltype(params)>::kind; },
                     method);
 }
 
-bool needs_exemplar(const Method& method) {
-  return std::visit([]<class Params>(const Params&) { return NeedsExemplar<Params>; }, method);
+Abilities abilities_of(const Method& method) {
+  return std::visit([](const auto& params) { return std::decay_t<decltype(params)>::abilities; },
+                    method);
 }
 
-Texture run_method(const Method& method, const Image& exemplar, const Target& target, Random random,
-                   const Control& control) {
-  return std::visit(
-      [&]<class Params>(const Params& params) {
-        if constexpr (NeedsExemplar<Params>)
-          return synthesise(params, exemplar, target, random, control);
-        else
-          return synthesise(params, target, random, control);
-      },
-      method);
+std::vector<std::string_view> methods_with(Ability ability) {
+  std::vector<std::string_view> kinds;
+  for_each_alternative<Method>([&]<class Params>(std::type_identity<Params>) {
+    if (Params::abilities.has(ability)) kinds.push_back(Params::kind);
+  });
+  return kinds;
 }
 
-Cost estimate_method(const Method& method, Size exemplar, int channels, const Target& target) {
-  return std::visit(
-      [&]<class Params>(const Params& params) {
-        if constexpr (NeedsExemplar<Params>)
-          return estimate(params, exemplar, channels, target);
-        else
-          return estimate(params, target);
-      },
-      method);
+Texture run_method(const Method& method, const Request& request, const Control& control) {
+  refuse_lacks(method, size_of(request));
+  return std::visit([&](const auto& params) { return synthesise(params, request, control); },
+                    method);
+}
+
+Cost estimate_method(const Method& method, const RequestSize& request) {
+  refuse_lacks(method, request);
+  return std::visit([&](const auto& params) { return estimate(params, request); }, method);
 }
 
 }  // namespace gramloom

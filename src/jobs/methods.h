@@ -3,6 +3,7 @@
 #include <string_view>
 #include <type_traits>
 #include <variant>
+#include <vector>
 
 #include "classic/histogram.h"
 #include "classic/markov.h"
@@ -11,10 +12,10 @@
 #include "classic/pixel.h"
 #include "classic/pyramid.h"
 #include "classic/quilting.h"
+#include "core/abilities.h"
 #include "core/fields.h"
-#include "core/image.h"
 #include "core/progress.h"
-#include "core/random.h"
+#include "core/request.h"
 #include "neural/synthesis.h"
 #include "procedural/texture.h"
 
@@ -25,13 +26,6 @@ namespace gramloom {
 using Method =
     std::variant<NeuralParams, QuiltingParams, PatchmatchParams, PixelParams, PyramidParams,
                  PhaseParams, MarkovParams, HistogramParams, ProceduralParams>;
-
-/// A method that makes a texture from a picture of one; the others need no exemplar.
-template <class Params>
-concept NeedsExemplar = requires(const Params& params, const Image& exemplar, const Target& target,
-                                 Random random, const Control& control) {
-  synthesise(params, exemplar, target, random, control);
-};
 
 /// A method that holds one of several sub-methods, chosen by their `name` under the key
 /// `variant_key`, in its member `texture`.
@@ -47,14 +41,18 @@ concept HasPresets = requires(const Params& params) {
 };
 
 std::string_view kind_of(const Method& method);
-bool needs_exemplar(const Method& method);
+Abilities abilities_of(const Method& method);
+/// A method without this ability needs no exemplar, and takes none.
+inline bool needs_exemplar(const Method& method) {
+  return abilities_of(method).has(Ability::exemplar);
+}
+/// The kinds of methods with this ability, in their order.
+std::vector<std::string_view> methods_with(Ability ability);
 
-/// Runs the method; `exemplar` is not looked at by one that needs none. (Not called synthesise: as
-/// a params struct converts to a Method, every method would seem to need an exemplar.)
-Texture run_method(const Method& method, const Image& exemplar, const Target& target, Random random,
-                   const Control& control);
-/// What it would need for an exemplar of this size and number of channels.
-Cost estimate_method(const Method& method, Size exemplar, int channels, const Target& target);
+/// What the method makes of the request, and what it would need for that. Both throw Error for what
+/// the method cannot do, with the methods that can.
+Texture run_method(const Method& method, const Request& request, const Control& control);
+Cost estimate_method(const Method& method, const RequestSize& request);
 
 /// Calls f(field, value) for every parameter of `params` in order: its own, then those of the
 /// sub-method that it holds.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "classic/check_input.h"
+#include "core/abilities.h"
 #include "jobs/pattern.h"
 #include "jobs/results.h"
 #include "jobs/settings.h"
@@ -22,7 +22,7 @@ const ExemplarFacts& facts_of(const Plan& plan, const Job& job) {
 // Throws Error for what no method takes.
 void check_values(const ExemplarEntry& exemplar, const Image& joined) {
   try {
-    check_input(joined, {joined.size()});
+    check_picture(joined);
   } catch (const Error& error) {
     throw Error("{}: {}", exemplar.image.string(), error.what());
   }
@@ -33,10 +33,10 @@ ExemplarFacts look_at(const ExemplarEntry& exemplar) {
   try {
     facts.hashes.push_back(file_hash(exemplar.image));
     for (const auto& [name, file] : exemplar.maps) facts.hashes.push_back(file_hash(file));
-    Exemplar loaded = load_exemplar(exemplar);
-    facts.size = loaded.image.size();
-    facts.layers = std::move(loaded.layers);
-    check_values(exemplar, loaded.image);
+    LoadedExemplar loaded = load_exemplar(exemplar);
+    facts.size = loaded.exemplar.image.size();
+    facts.files = std::move(loaded.files);
+    check_values(exemplar, loaded.exemplar.image);
   } catch (const ConfigError&) {
     throw;  // for the user to mend first
   } catch (const Error& error) {
@@ -48,9 +48,16 @@ ExemplarFacts look_at(const ExemplarEntry& exemplar) {
 // Throws Error when the config's format cannot hold a texture or one of its maps.
 void check_formats(const Config& config, const ExemplarFacts& facts) {
   constexpr int colours = 3;  // that procedural textures have
-  if (facts.layers.empty()) output_format(config, {}, colours);
-  for (const ExemplarLayer& layer : facts.layers)
-    output_format(config, layer.encoding, layer.channels);
+  if (facts.files.empty()) output_format(config, {}, colours);
+  for (const ExemplarFile& file : facts.files) output_format(config, file.encoding, file.channels);
+}
+
+// What a job asks for at this size of the texture.
+RequestSize request_size(const Config& config, const Plan& plan, const Job& job, Size size) {
+  RequestSize request{.size = size, .tile = config.tile};
+  const ExemplarFacts& facts = facts_of(plan, job);
+  if (job.exemplar) request.exemplars.push_back({facts.size, channels_of(facts.files)});
+  return request;
 }
 
 // The cost of a job, or why the method cannot do it. A ConfigError is for the user to mend first.
@@ -61,10 +68,10 @@ void estimate_job(const Config& config, const Plan& plan, PlannedJob& planned) {
   if (!planned.error.empty()) return;
   try {
     check_formats(config, facts);
-    planned.cost = estimate_method(method.method, facts.size, channels_of(facts.layers),
-                                   {config.size, config.tile});
+    planned.cost =
+        estimate_method(method.method, request_size(config, plan, planned.job, config.size));
     if (config.scores && planned.job.exemplar)
-      planned.scoring = estimate_scores(facts.size, facts.layers.front().channels, config.size);
+      planned.scoring = estimate_scores(facts.size, facts.files.front().channels, config.size);
   } catch (const ConfigError& error) {
     throw ConfigError("{}: method '{}': {}", method.place, method.name, error.what());
   } catch (const Error& error) {
@@ -83,7 +90,7 @@ std::vector<PlannedDiversity> plan_diversities(const Config& config, const Plan&
     const int count = ++seeds[name];
     if (count < 2) continue;
     if (count > 2) diversities.pop_back();
-    const int channels = facts_of(plan, planned.job).layers.front().channels;
+    const int channels = facts_of(plan, planned.job).files.front().channels;
     diversities.push_back({name, estimate_diversity(config.size, channels, count)});
   }
   return diversities;
@@ -166,15 +173,14 @@ std::string diversity_refusal(const Cost& cost, double available) {
 std::string memory_refusal(const Config& config, const Plan& plan, const PlannedJob& planned,
                            double available) {
   if (planned.cost.bytes <= available) return "";
-  const ExemplarFacts& facts = facts_of(plan, planned.job);
   const auto scaled = [&](double scale) {
     return Size{std::max(1, static_cast<int>(config.size.width * scale)),
                 std::max(1, static_cast<int>(config.size.height * scale))};
   };
   const auto fits = [&](Size size) {
     try {
-      return estimate_method(config.methods[planned.job.method].method, facts.size,
-                             channels_of(facts.layers), {size, config.tile})
+      return estimate_method(config.methods[planned.job.method].method,
+                             request_size(config, plan, planned.job, size))
                  .bytes <= available;
     } catch (const Error&) {
       return false;

@@ -33,8 +33,8 @@ bool job_matches(const std::string& pattern, const std::string& job);
 /// What is known of an exemplar before its jobs run.
 struct ExemplarFacts {
   Size size;  // after max_side
-  std::vector<ExemplarLayer> layers;
-  std::vector<std::string> hashes;  // of each layer's file
+  std::vector<ExemplarFile> files;
+  std::vector<std::string> hashes;  // of each file
   std::string error;  // why it cannot be read, or taken by a method; its jobs fail with this
 };
 

@@ -55,13 +55,13 @@ OutputFormat output_format(const Config& config, const Encoding& exemplar, int c
   return output;
 }
 
-OutputFormats output_formats(const Config& config, const std::vector<ExemplarLayer>& layers,
+OutputFormats output_formats(const Config& config, const std::vector<ExemplarFile>& files,
                              const Texture& texture) {
-  const Encoding encoding = layers.empty() ? Encoding() : layers.front().encoding;
+  const Encoding encoding = files.empty() ? Encoding() : files.front().encoding;
   OutputFormats formats{output_format(config, encoding, texture.image.channels), {}};
-  for (const ExemplarLayer& layer : layers)
-    if (!layer.map.empty())
-      formats.maps[layer.map] = output_format(config, layer.encoding, layer.channels);
+  for (const ExemplarFile& file : files)
+    if (!file.map.empty())
+      formats.maps[file.map] = output_format(config, file.encoding, file.channels);
   for (const auto& [name, map] : texture.maps)
     if (!formats.maps.contains(name))
       formats.maps[name] = format_of_own_map(map, texture.image, formats.picture);
@@ -86,14 +86,15 @@ std::vector<std::string> write_texture(const fs::path& folder, const std::string
   return files;
 }
 
-void write_exemplar(const fs::path& folder, const Exemplar& exemplar) {
-  const Texture parts = split_layers({exemplar.image, {}}, exemplar.layers);
-  for (const ExemplarLayer& layer : exemplar.layers) {
-    const bool picture = layer.map.empty();
-    const std::string name = picture ? "exemplar" : "exemplar_" + layer.map;
-    const OutputFormat format = output_format(Config(), layer.encoding, layer.channels);
-    write_image(folder / (name + format.extension),
-                picture ? parts.image : parts.maps.at(layer.map), format.encoding);
+void write_exemplar(const fs::path& folder, const Exemplar& exemplar,
+                    const std::vector<ExemplarFile>& files) {
+  const Texture parts = split_layers({exemplar.image}, files);
+  for (const ExemplarFile& file : files) {
+    const bool picture = file.map.empty();
+    const std::string name = picture ? "exemplar" : "exemplar_" + file.map;
+    const OutputFormat format = output_format(Config(), file.encoding, file.channels);
+    write_image(folder / (name + format.extension), picture ? parts.image : parts.maps.at(file.map),
+                format.encoding);
     for (const std::string extension : {".png", ".exr", ".tif"})
       if (extension != format.extension) remove_file(folder / (name + extension));
   }

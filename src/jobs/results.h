@@ -27,7 +27,7 @@ struct OutputFormats {
   OutputFormat picture;
   std::map<std::string, OutputFormat> maps;
 };
-OutputFormats output_formats(const Config& config, const std::vector<ExemplarLayer>& layers,
+OutputFormats output_formats(const Config& config, const std::vector<ExemplarFile>& files,
                              const Texture& texture);
 
 /// Writes a texture and its maps as `name` + extension and `name`_<map> + extension in `folder`,
@@ -39,6 +39,7 @@ std::vector<std::string> write_texture(const std::filesystem::path& folder, cons
 
 /// Writes the exemplar of results and its maps as "exemplar" + extension and "exemplar_"<map> +
 /// extension in `folder`. Throws Error.
-void write_exemplar(const std::filesystem::path& folder, const Exemplar& exemplar);
+void write_exemplar(const std::filesystem::path& folder, const Exemplar& exemplar,
+                    const std::vector<ExemplarFile>& files);
 
 }  // namespace gramloom

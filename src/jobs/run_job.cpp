@@ -49,19 +49,15 @@ Made make_texture(Run& run, const PlannedJob& planned, const JobFiles& files, Tr
   };
   std::optional<NothingToKeep> scope;
   if (!std::holds_alternative<NeuralParams>(run.config.methods[job.method].method)) scope.emplace();
-  // The seed alone: a texture does not change when its exemplar or method is given another name.
-  made.texture = run_method(run.config.methods[job.method].method, exemplar_of(run, job).image,
-                            {run.config.size, run.config.tile},
-                            Random(static_cast<std::uint64_t>(job.seed)), control);
+  made.texture = run_method(run.config.methods[job.method].method, request_of(run, job), control);
   return made;
 }
 
-void write_results(Run& run, const PlannedJob& planned, const JobFiles& files, Texture joined,
-                   const TraceLog& trace, JobRecord& record) {
-  const std::vector<ExemplarLayer>& layers = exemplar_of(run, planned.job).layers;
-  const Texture texture = split_layers(std::move(joined), layers);
+void write_results(const Run& run, const JobFiles& files, Texture joined, const TraceLog& trace,
+                   JobRecord& record) {
+  const Texture texture = split_layers(std::move(joined), run.files);
   record.files = write_texture(files.folder, files.name, texture,
-                               output_formats(run.config, layers, texture), record.settings);
+                               output_formats(run.config, run.files, texture), record.settings);
   record.loss = summarise(trace.trace());
   if (record.loss)
     write_text(files.trace, to_csv(trace.trace()));
@@ -89,26 +85,34 @@ void do_job(Run& run, const PlannedJob& planned, const JobFiles& files, bool kee
     record.status = Status::done;
     record.error.clear();
   }
-  write_results(run, planned, files, std::move(made.texture), trace, record);
+  write_results(run, files, std::move(made.texture), trace, record);
   if (!made.stopped) remove_unfinished_state(files);
 }
 
 }  // namespace
 
-const Exemplar& exemplar_of(Run& run, const Job& job) {
+const Request& request_of(Run& run, const Job& job) {
   if (run.loaded != job.exemplar) {
     const NothingToKeep scope;
     run.loaded.reset();
-    run.exemplar = {};
+    run.request.exemplars.clear();
+    run.files.clear();
     run.statistics.reset();
-    if (job.exemplar) run.exemplar = load_exemplar(run.config.exemplars[*job.exemplar]);
+    if (job.exemplar) {
+      LoadedExemplar loaded = load_exemplar(run.config.exemplars[*job.exemplar]);
+      run.request.exemplars.push_back(std::move(loaded.exemplar));
+      run.files = std::move(loaded.files);
+    }
     run.loaded = job.exemplar;
   }
-  return run.exemplar;
+  run.request.target = {run.config.size, run.config.tile};
+  // The seed alone: a texture does not change when its exemplar or method is given another name.
+  run.request.random = Random(static_cast<std::uint64_t>(job.seed));
+  return run.request;
 }
 
 ExemplarStatistics& statistics_of(Run& run, const Job& job) {
-  const Exemplar& exemplar = exemplar_of(run, job);
+  const Exemplar& exemplar = request_of(run, job).exemplars.front();
   if (!run.statistics) run.statistics.emplace(picture_of(exemplar));
   return *run.statistics;
 }

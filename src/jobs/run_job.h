@@ -12,21 +12,23 @@
 
 namespace gramloom {
 
-/// What all jobs of a run share. The exemplar of the last job is kept for the next one.
+/// What all jobs of a run share. The exemplar of the last job is kept for the next one, in its
+/// request.
 struct Run {
   const Config& config;
   const RunOptions& options;
   const Plan& plan;
   ProgressBar& bar;
-  std::optional<std::size_t> loaded;
-  Exemplar exemplar;
-  std::optional<ExemplarStatistics> statistics;  // of its picture, for the scores
+  std::optional<std::size_t> loaded = {};
+  Request request = {};
+  std::vector<ExemplarFile> files = {};                // of that exemplar
+  std::optional<ExemplarStatistics> statistics = {};  // of its picture, for the scores
 
   bool stopped() const { return options.stop && options.stop(); }
 };
 
-/// The exemplar of a job, empty where it has none. Throws Error.
-const Exemplar& exemplar_of(Run& run, const Job& job);
+/// What the job asks of its method. Throws Error for an exemplar that cannot be read.
+const Request& request_of(Run& run, const Job& job);
 
 /// The exemplar's side of the scores, kept as long as the exemplar. Throws Error.
 ExemplarStatistics& statistics_of(Run& run, const Job& job);

@@ -130,7 +130,7 @@ void keep_exemplar(Run& run, const Job& job, std::optional<std::size_t>& kept) {
     const fs::path folder = run.options.output / exemplar_name(run.config, job);
     create_folder(folder);
     remove_stale_temporaries(folder, "exemplar");
-    write_exemplar(folder, exemplar_of(run, job));
+    write_exemplar(folder, request_of(run, job).exemplars.front(), run.files);
   });
 }
 
@@ -195,7 +195,7 @@ void add_diversity(Run& run, const JobGroup& group, RunFile& run_file, RunSummar
 RunSummary run(const Config& config, const RunOptions& options, ProgressBar& bar) {
   const Plan plan = look_ahead(config, options);
   Output output = prepare_output(config, plan, options);
-  Run run{config, options, plan, bar, {}, {}, {}};
+  Run run{config, options, plan, bar};
   const auto count = static_cast<std::size_t>(
       std::count_if(plan.jobs.begin(), plan.jobs.end(), [](const auto& j) { return j.selected; }));
   warn_of_slow_blas(run);

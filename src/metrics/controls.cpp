@@ -4,8 +4,8 @@
 #include <numeric>
 #include <vector>
 
-#include "classic/check_input.h"
 #include "classic/phase.h"
+#include "core/abilities.h"
 #include "core/error.h"
 
 namespace gramloom {
@@ -58,13 +58,14 @@ ControlPair halves(const Image& exemplar) {
 }  // namespace
 
 ControlPair control_pair(ControlKind kind, const Image& exemplar, Size size, Random random) {
-  check_input(exemplar, Target{size});
+  check_picture(exemplar);
+  check_size(size);
   switch (kind) {
     case ControlKind::shuffled:
       return {exemplar, shuffled(exemplar, size, random)};
     case ControlKind::random_phase:
       return {exemplar,
-              synthesise(PhaseParams{}, exemplar, Target{size}, random, gramloom::Control{}).image};
+              synthesise(PhaseParams{}, {{{exemplar}}, {size}, random}, gramloom::Control{}).image};
     case ControlKind::tiled:
       return {exemplar, window(exemplar, 0, 0, size)};
     case ControlKind::halves:

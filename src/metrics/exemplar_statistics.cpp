@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "classic/check_input.h"
+#include "core/abilities.h"
 #include "metrics/spectrum.h"
 #include "signal/fourier.h"
 
@@ -24,7 +24,7 @@ const T& once(std::map<int, T>& parts, int key, const Make& make) {
 }
 
 const Image& checked(const Image& exemplar) {
-  check_input(exemplar, Target{exemplar.size()});
+  check_picture(exemplar);
   return exemplar;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "classic/check_input.h"
+#include "core/abilities.h"
 #include "core/error.h"
 #include "metrics/copying.h"
 #include "metrics/exemplar_statistics.h"
@@ -109,7 +109,7 @@ Cost estimate_diversity(Size image, int channels, int seeds) {
 
 double diversity(std::span<const Image> seeds, const Control& control) {
   if (seeds.size() < 2) throw Error("diversity needs the results of at least two seeds");
-  check_input(seeds.front(), Target{seeds.front().size()});
+  check_picture(seeds.front());
   const ColourFrame frame = colour_frame(seeds.front());
   std::vector<Image> pictures;
   for (const Image& seed : seeds) {

@@ -73,7 +73,11 @@ void check_possible(const NeuralParams& params, Size exemplar, int channels, con
 
 }  // namespace
 
-Cost estimate(const NeuralParams& params, Size exemplar, int channels, const Target& target) {
+Cost estimate(const NeuralParams& params, const RequestSize& request) {
+  check_request<NeuralParams>(request);
+  const Size exemplar = request.exemplars.front().size;
+  const int channels = request.exemplars.front().channels;
+  const Target target{request.size, request.tile};
   check_possible(params, exemplar, channels, target);
   const LossSize size = loss_size(params, exemplar, canvas_size(params, target), channels);
   const LossCost loss = loss_cost(params, size);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/abilities.h"
 #include "core/fields.h"
 #include "neural/loss/terms.h"
 
@@ -45,6 +46,7 @@ struct NeuralParams : LossParams {
   static constexpr std::string_view kind = "neural";
   static constexpr std::string_view summary =
       "statistics of random filters or of a network (Gatys et al. 2015; Heitz et al. 2021)";
+  static constexpr Abilities abilities{Ability::exemplar};
 
   Preset preset = Preset::balanced;
 

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/image.h"
-#include "core/random.h"
+#include "core/request.h"
 #include "io/safetensors.h"
 #include "neural/network/work.h"
 #include "neural/params.h"

@@ -249,12 +249,13 @@ class Synthesis {
 
 }  // namespace
 
-Texture synthesise(const NeuralParams& params, const Image& exemplar, const Target& target,
-                   Random random, const Control& control) {
+Texture synthesise(const NeuralParams& params, const Request& request, const Control& control) {
   check_settings(params);
+  check_request<NeuralParams>(request);
+  const Image& exemplar = request.exemplars.front().image;
   const c10::NoGradGuard no_gradients;
   at::set_num_threads(thread_count());
-  Synthesis synthesis(params, exemplar, target, random, control);
+  Synthesis synthesis(params, exemplar, request.target, request.random, control);
   Texture texture;
   texture.image = unwhitened(to_image(synthesis.run()), synthesis.colours());
   if (params.match_histogram) match_histogram(texture.image, exemplar);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "core/request.h"
 #include "core/threads.h"
 #include "procedural/canvas.h"
 #include "procedural/ramp.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/fields.h"
-#include "core/image.h"
+#include "core/request.h"
 #include "procedural/canvas.h"
 
 namespace gramloom {

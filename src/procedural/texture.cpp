@@ -27,14 +27,14 @@ int dimensions(const ProceduralTexture& texture) {
       texture);
 }
 
-void check(const ProceduralParams& params, const Target& target) {
+void check(const ProceduralParams& params, Tile tile) {
   check_fields(params);
   std::visit([](const auto& texture) { check_fields(texture); }, params.texture);
   const bool tilted = params.tilt != 0 || params.turn != 0;
   if (dimensions(params.texture) < 3 && (tilted || params.depth != 0 || params.frames > 1))
     throw ConfigError("texture '{}' is flat: depth, tilt, turn and frames are for solids",
                       std::visit([](const auto& t) { return t.name; }, params.texture));
-  if (tilted && (target.tile != Tile::none || params.loop))
+  if (tilted && (tile != Tile::none || params.loop))
     throw ConfigError("a plane with tilt or turn cannot tile or loop");
   if (params.loop && params.travel <= 0)
     throw ConfigError("a loop needs travel > 0: it comes back after that distance");
@@ -90,10 +90,10 @@ Canvas make_canvas(const ProceduralParams& params, const Target& target, Random 
 
 }  // namespace
 
-Texture synthesise(const ProceduralParams& params, const Target& target, Random random,
-                   const Control& control) {
-  check(params, target);
-  Canvas canvas = make_canvas(params, target, random, control);
+Texture synthesise(const ProceduralParams& params, const Request& request, const Control& control) {
+  check(params, request.target.tile);
+  check_request<ProceduralParams>(request);
+  Canvas canvas = make_canvas(params, request.target, request.random, control);
   Texture result;
   for (int frame = 0; frame < params.frames; ++frame) {
     const double moved = params.travel * frame / params.frames;
@@ -110,13 +110,14 @@ Texture synthesise(const ProceduralParams& params, const Target& target, Random 
   return result;
 }
 
-Cost estimate(const ProceduralParams& params, const Target& target) {
-  check(params, target);
+Cost estimate(const ProceduralParams& params, const RequestSize& request) {
+  check(params, request.tile);
+  check_request<ProceduralParams>(request);
   // One pixel finds what the texture itself refuses, such as colours that are none.
   ProceduralParams one = params;
   one.frames = 1;
-  synthesise(one, {{1, 1}, Tile::none}, Random(0), {});
-  const double pixels = static_cast<double>(target.size.width) * target.size.height;
+  synthesise(one, {{}, {{1, 1}, Tile::none}, Random(0)}, {});
+  const double pixels = static_cast<double>(request.size.width) * request.size.height;
   const double samples = pixels * params.samples * params.samples * params.frames;
   const double images = 5 + params.frames;  // colour, maps, and what light_relief works with
   return {pixels * 3 * sizeof(float) * images, samples * 1.5e-7};

@@ -4,10 +4,10 @@
 #include <tuple>
 #include <variant>
 
+#include "core/abilities.h"
 #include "core/fields.h"
-#include "core/image.h"
 #include "core/progress.h"
-#include "core/random.h"
+#include "core/request.h"
 #include "procedural/ground.h"
 #include "procedural/masonry.h"
 #include "procedural/minerals.h"
@@ -30,6 +30,7 @@ using ProceduralTexture =
 struct ProceduralParams {
   static constexpr std::string_view kind = "procedural";
   static constexpr std::string_view summary = "a texture from formulas, without an exemplar";
+  static constexpr Abilities abilities{};
   /// The config's key that chooses the alternative of `texture` by its name.
   static constexpr std::string_view variant_key = "texture";
   ProceduralTexture texture = Noise{};
@@ -69,15 +70,15 @@ struct ProceduralParams {
   }
 };
 
-/// The texture of `target`'s size, seamless along its tiling axes, with the maps that it has:
+/// The texture of the target's size, seamless along its tiling axes, with the maps that it has:
 /// "height" and "mask" with one channel in [0, 1], and "frame_0001", … of a sequence, of which
 /// `image` is the first. A solid texture is cut by the plane that depth, tilt and turn describe,
 /// and a sequence moves this plane along its normal (4-D noise: through the fourth dimension).
 /// Throws ConfigError for parameters that are out of range or don't fit together (a flat texture
-/// has no depth, a tilted plane does not tile), Interrupted when told to stop.
-Texture synthesise(const ProceduralParams& params, const Target& target, Random random,
-                   const Control& control = {});
+/// has no depth, a tilted plane does not tile), Error for a request that check_request() refuses,
+/// as one with an exemplar, Interrupted when told to stop.
+Texture synthesise(const ProceduralParams& params, const Request& request, const Control& control);
 
-Cost estimate(const ProceduralParams& params, const Target& target);
+Cost estimate(const ProceduralParams& params, const RequestSize& request);
 
 }  // namespace gramloom

@@ -28,7 +28,7 @@ void synthesis(benchmark::State& state) {
   const Image exemplar = grain(side / 2);
   for (auto _ : state)
     benchmark::DoNotOptimize(
-        synthesise(Params{}, exemplar, Target{{side, side}}, Random(1), Control{}));
+        synthesise(Params{}, {{{exemplar}}, Target{{side, side}}, Random(1)}, Control{}));
 }
 
 #define GRAMLOOM_BENCHMARK(Params)    \

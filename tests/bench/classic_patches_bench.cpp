@@ -25,8 +25,9 @@ void run(benchmark::State& state, const Params& params) {
   const int side = static_cast<int>(state.range(0));
   const Image exemplar = grains(static_cast<int>(state.range(1)));
   for (auto _ : state)
-    benchmark::DoNotOptimize(synthesise(params, exemplar, {{side, side}, Tile::none}, Random(1), {})
-                                 .image.pixels.data());
+    benchmark::DoNotOptimize(
+        synthesise(params, {{{exemplar}}, {{side, side}, Tile::none}, Random(1)}, {})
+            .image.pixels.data());
 }
 
 void quilting(benchmark::State& state) { run(state, QuiltingParams{}); }

@@ -25,7 +25,8 @@ void pixel(benchmark::State& state) {
   const Image from = exemplar();
   for (auto _ : state)
     benchmark::DoNotOptimize(
-        synthesise(params, from, {{side, side}, Tile::both}, Random(1), {}).image.pixels.data());
+        synthesise(params, {{{from}}, {{side, side}, Tile::both}, Random(1)}, {})
+            .image.pixels.data());
   state.SetLabel(std::string(to_word(params.algorithm)));
 }
 BENCHMARK(pixel)

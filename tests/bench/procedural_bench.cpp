@@ -52,7 +52,7 @@ void noise_2d(benchmark::State& state) {
   params.texture = noise;
   params.samples = 1;
   params.scale = 32;
-  for (auto _ : state) benchmark::DoNotOptimize(synthesise(params, large, Random(1)));
+  for (auto _ : state) benchmark::DoNotOptimize(synthesise(params, {{}, large, Random(1)}, {}));
   state.SetItemsProcessed(state.iterations() * 1024 * 1024 * state.range(0));
 }
 BENCHMARK(noise_2d)->Arg(1)->Arg(6)->Unit(benchmark::kMillisecond);
@@ -66,7 +66,7 @@ void noise_3d(benchmark::State& state) {
   params.texture = noise;
   params.samples = 1;
   params.scale = 32;
-  for (auto _ : state) benchmark::DoNotOptimize(synthesise(params, large, Random(1)));
+  for (auto _ : state) benchmark::DoNotOptimize(synthesise(params, {{}, large, Random(1)}, {}));
   state.SetItemsProcessed(state.iterations() * 1024 * 1024 * state.range(0));
 }
 BENCHMARK(noise_3d)->Arg(1)->Arg(6)->Unit(benchmark::kMillisecond);
@@ -78,7 +78,7 @@ void texture(benchmark::State& state) {
   ProceduralParams params;
   params.texture = std::variant_alternative_t<I, ProceduralTexture>{};
   for (auto _ : state)
-    benchmark::DoNotOptimize(synthesise(params, {{256, 256}, Tile::both}, Random(1)));
+    benchmark::DoNotOptimize(synthesise(params, {{}, {{256, 256}, Tile::both}, Random(1)}, {}));
 }
 
 template <std::size_t... I>

@@ -20,7 +20,7 @@ TEST(Histogram, DrawsColoursByTheirShare) {
       exemplar.at(i % 4, i / 4)[1] = colour.second;
     }
   const Image image =
-      synthesise(HistogramParams{}, exemplar, Target{{400, 250}}, Random(1), Control{}).image;
+      synthesise(HistogramParams{}, {{{exemplar}}, Target{{400, 250}}, Random(1)}, Control{}).image;
   std::map<std::pair<float, float>, int> seen;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) ++seen[{image.at(x, y)[0], image.at(x, y)[1]}];
@@ -38,7 +38,7 @@ TEST(Histogram, PixelsAreIndependent) {
   *exemplar.at(0, 0) = 1;
   *exemplar.at(1, 0) = -1;
   const Image image =
-      synthesise(HistogramParams{}, exemplar, Target{{500, 200}}, Random(2), Control{}).image;
+      synthesise(HistogramParams{}, {{{exemplar}}, Target{{500, 200}}, Random(2)}, Control{}).image;
   double right = 0, down = 0;
   for (int y = 0; y + 1 < image.height; ++y)
     for (int x = 0; x + 1 < image.width; ++x) {

@@ -64,7 +64,7 @@ class Invariants : public testing::Test {
 
   static Image make(const Image& exemplar, Size size, std::uint64_t seed = 1,
                     Tile tile = Tile::none) {
-    return synthesise(Params{}, exemplar, Target{size, tile}, Random(seed), Control{}).image;
+    return synthesise(Params{}, {{{exemplar}}, Target{size, tile}, Random(seed)}, Control{}).image;
   }
 
   static void expect_sound(const Image& image, const Image& exemplar, Size size) {
@@ -207,7 +207,7 @@ TYPED_TEST(Invariants, ReportsItsStepsAndStopsWhenAsked) {
       steps = p.steps;
       return ++calls != stop_at;
     };
-    synthesise(TypeParam{}, exemplar, Target{{96, 96}}, Random(1), control);
+    synthesise(TypeParam{}, {{{exemplar}}, Target{{96, 96}}, Random(1)}, control);
     EXPECT_EQ(last, steps);
     return calls;
   };
@@ -219,7 +219,7 @@ TYPED_TEST(Invariants, ReportsItsStepsAndStopsWhenAsked) {
 
 TYPED_TEST(Invariants, EstimateGrowsWithTheWork) {
   const auto cost = [](int side, int channels) {
-    return estimate(TypeParam{}, Size{128, 128}, channels, Target{{side, side}});
+    return estimate(TypeParam{}, {{{{128, 128}, channels}}, {side, side}});
   };
   EXPECT_GT(cost(64, 1).bytes, 0);
   EXPECT_GT(cost(64, 1).seconds, 0);

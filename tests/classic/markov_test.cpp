@@ -64,7 +64,7 @@ TEST(Markov, OrderKKeepsTheStatisticsOfKPlusOneAndNotOfMore) {
     MarkovParams params;
     params.order = order;
     const Image image =
-        synthesise(params, exemplar, Target{{300, 300}}, Random(2), Control{}).image;
+        synthesise(params, {{{exemplar}}, Target{{300, 300}}, Random(2)}, Control{}).image;
     // Shares have a standard error of at most ½/√90000 here, √2 of it between independent words.
     const double error = 5 * 0.5 / 300;
     EXPECT_LT(largest_difference(word_shares(image, order + 1), word_shares(exemplar, order + 1)),
@@ -81,7 +81,7 @@ TEST(Markov, TheChainWrapsWhereItTiles) {
   MarkovParams params;
   params.order = 2;
   const Image image =
-      synthesise(params, exemplar, Target{{40, 4000}, Tile::x}, Random(4), Control{}).image;
+      synthesise(params, {{{exemplar}}, Target{{40, 4000}, Tile::x}, Random(4)}, Control{}).image;
   // The words of three levels that lie across the seam, as frequent as anywhere.
   std::vector<double> across(27);
   for (int y = 0; y < image.height; ++y)
@@ -100,7 +100,8 @@ TEST(Markov, CausalNeighbourhoodContinuesAChessboard) {
   MarkovParams params;
   params.neighbourhood = MarkovNeighbourhood::causal;
   params.order = 2;
-  const Image image = synthesise(params, exemplar, Target{{50, 40}}, Random(5), Control{}).image;
+  const Image image =
+      synthesise(params, {{{exemplar}}, Target{{50, 40}}, Random(5)}, Control{}).image;
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x + 1 < 50; ++x) ASSERT_NE(*image.at(x, y), *image.at(x + 1, y));
 }
@@ -115,7 +116,7 @@ TEST(Markov, WritesTheExemplarsOwnColours) {
       colours.insert({exemplar.at(x, y), exemplar.at(x, y) + 3});
     }
   const Image image =
-      synthesise(MarkovParams{}, exemplar, Target{{30, 30}}, Random(7), Control{}).image;
+      synthesise(MarkovParams{}, {{{exemplar}}, Target{{30, 30}}, Random(7)}, Control{}).image;
   for (int y = 0; y < 30; ++y)
     for (int x = 0; x < 30; ++x)
       ASSERT_TRUE(colours.contains({image.at(x, y), image.at(x, y) + 3}));

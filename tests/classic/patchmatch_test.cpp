@@ -15,7 +15,7 @@ namespace {
 
 Image optimise(const PatchmatchParams& params, const Image& exemplar, const Target& target,
                std::uint64_t seed = 1) {
-  return synthesise(params, exemplar, target, Random(seed), {}).image;
+  return synthesise(params, {{{exemplar}}, target, Random(seed)}, {}).image;
 }
 
 double mean_distance(const PatchField& field) {
@@ -220,12 +220,13 @@ TEST(Patchmatch, ReportsProgressAndStops) {
     steps = p.steps;
     return true;
   };
-  synthesise(PatchmatchParams{}, exemplar, {{64, 64}, Tile::none}, Random(1), control);
+  synthesise(PatchmatchParams{}, {{{exemplar}}, {{64, 64}, Tile::none}, Random(1)}, control);
   EXPECT_GT(steps, 10);
   EXPECT_EQ(last, steps);
   control.progress = [](const Progress&) { return false; };
-  EXPECT_THROW(synthesise(PatchmatchParams{}, exemplar, {{64, 64}, Tile::none}, Random(1), control),
-               Interrupted);
+  EXPECT_THROW(
+      synthesise(PatchmatchParams{}, {{{exemplar}}, {{64, 64}, Tile::none}, Random(1)}, control),
+      Interrupted);
 }
 
 TEST(Patchmatch, RefusesWhatCannotBe) {

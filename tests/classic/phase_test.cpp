@@ -82,7 +82,7 @@ TEST(Phase, SynthesisOfTheExemplarsSizeHasItsPeriodicComponentsSpectrum) {
   exemplar.pixels[100] = 0;
   exemplar.pixels[101] = 1;
   const Image image =
-      synthesise(PhaseParams{}, exemplar, Target{{40, 32}}, Random(6), Control{}).image;
+      synthesise(PhaseParams{}, {{{exemplar}}, Target{{40, 32}}, Random(6)}, Control{}).image;
   const Spectrum before = fourier(periodic_component(exemplar), 0), after = fourier(image, 0);
   double rms = 0;
   for (std::size_t i = 1; i < before.size(); ++i) rms += std::norm(before[i]);
@@ -127,7 +127,7 @@ TEST(Phase, LargerAndSmallerResultsKeepMeanVarianceAndNeighboursCorrelation) {
                                    {Size{100, 300}, Tile::x},
                                    {Size{90, 100}, Tile::none}}) {
     const Image image =
-        synthesise(PhaseParams{}, exemplar, Target{size, tile}, Random(9), Control{}).image;
+        synthesise(PhaseParams{}, {{{exemplar}}, Target{size, tile}, Random(9)}, Control{}).image;
     const auto moments = [](const Image& of) {
       double mean = 0, square = 0, right = 0;
       for (int y = 0; y < of.height; ++y)

@@ -53,7 +53,7 @@ Image stripes(Size size, int width, bool upright) {
 
 Image run(const PixelParams& params, const Image& exemplar, const Target& target,
           std::uint64_t seed = 1) {
-  return synthesise(params, exemplar, target, Random(seed), {}).image;
+  return synthesise(params, {{{exemplar}}, target, Random(seed)}, {}).image;
 }
 
 using Pixel = std::vector<float>;
@@ -191,7 +191,7 @@ TEST_P(EachWay, StopsWhenAsked) {
   int calls = 0;
   Control control;
   control.progress = [&](const Progress&) { return ++calls < 2; };
-  EXPECT_THROW(synthesise(params(), exemplar, {{24, 24}, Tile::none}, Random(1), control),
+  EXPECT_THROW(synthesise(params(), {{{exemplar}}, {{24, 24}, Tile::none}, Random(1)}, control),
                Interrupted);
   EXPECT_EQ(calls, 2);
 }
@@ -206,7 +206,7 @@ TEST_P(EachWay, ProgressRisesToItsEnd) {
     last = p;
     return true;
   };
-  synthesise(params(), exemplar, {{20, 30}, Tile::none}, Random(1), control);
+  synthesise(params(), {{{exemplar}}, {{20, 30}, Tile::none}, Random(1)}, control);
   EXPECT_EQ(last.step, last.steps);
 }
 

@@ -88,7 +88,7 @@ TEST(Pyramid, HistogramsEndEqual) {
   const Image exemplar = noise({48, 40}, 3, 3);
   for (const Size size : {Size{48, 40}, Size{40, 48}, Size{90, 70}}) {
     const Image image =
-        synthesise(PyramidParams{}, exemplar, Target{size}, Random(1), Control{}).image;
+        synthesise(PyramidParams{}, {{{exemplar}}, Target{size}, Random(1)}, Control{}).image;
     for (int c = 0; c < 3; ++c) {
       const auto got = sorted_values(extract_channels(image, c, 1).pixels);
       auto expected = got;
@@ -122,7 +122,8 @@ TEST(Pyramid, ConvergesToTheBandsOfAnOrientedTexture) {
     PyramidParams params;
     params.iterations = iterations;
     const auto got = band_energies(
-        synthesise(params, exemplar, Target{{128, 128}}, Random(2), Control{}).image, pyramid);
+        synthesise(params, {{{exemplar}}, Target{{128, 128}}, Random(2)}, Control{}).image,
+        pyramid);
     double sum = 0, total = 0;
     for (std::size_t b = 0; b + 1 < got.size(); ++b) {  // the low-pass is mostly the mean
       sum += std::abs(got[b] - wanted[b]);
@@ -142,7 +143,7 @@ TEST(Pyramid, ColoursStayCorrelated) {
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) exemplar.at(x, y)[1] = 1 - exemplar.at(x, y)[0];
   const Image image =
-      synthesise(PyramidParams{}, exemplar, Target{{64, 64}}, Random(3), Control{}).image;
+      synthesise(PyramidParams{}, {{{exemplar}}, Target{{64, 64}}, Random(3)}, Control{}).image;
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) ASSERT_NEAR(image.at(x, y)[0] + image.at(x, y)[1], 1, 1e-3);
 }

@@ -10,7 +10,7 @@ namespace {
 
 Image quilt(const QuiltingParams& params, const Image& exemplar, const Target& target,
             std::uint64_t seed = 1) {
-  return synthesise(params, exemplar, target, Random(seed), {}).image;
+  return synthesise(params, {{{exemplar}}, target, Random(seed)}, {}).image;
 }
 
 TEST(Quilting, EveryPixelIsOneOfTheExemplars) {
@@ -168,13 +168,14 @@ TEST(Quilting, ReportsProgressAndStops) {
     steps = p.steps;
     return true;
   };
-  synthesise(QuiltingParams{.patch_size = 16}, exemplar, {{90, 90}, Tile::none}, Random(1),
+  synthesise(QuiltingParams{.patch_size = 16}, {{{exemplar}}, {{90, 90}, Tile::none}, Random(1)},
              control);
   EXPECT_GT(calls, 3);
   EXPECT_EQ(last, steps);
   control.progress = [](const Progress&) { return false; };
-  EXPECT_THROW(synthesise(QuiltingParams{}, exemplar, {{90, 90}, Tile::none}, Random(1), control),
-               Interrupted);
+  EXPECT_THROW(
+      synthesise(QuiltingParams{}, {{{exemplar}}, {{90, 90}, Tile::none}, Random(1)}, control),
+      Interrupted);
 }
 
 TEST(Quilting, RefusesWhatCannotBe) {

@@ -339,7 +339,7 @@ TEST_F(ConfigText, MemoryRefusalSaysWhatWouldFit) {
   ASSERT_NE(at, std::string::npos) << refusal;
   ASSERT_EQ(std::sscanf(refusal.c_str() + at, "size = [%d, %d]", &width, &height), 2);
   const auto cost = [&](Size size) {
-    return estimate_method(config.methods[0].method, {}, 0, {size, Tile::none}).bytes;
+    return estimate_method(config.methods[0].method, {.size = size}).bytes;
   };
   EXPECT_LE(cost({width, height}), job.cost.bytes / 4);
   EXPECT_GT(cost({width + 20, height + 10}), job.cost.bytes / 4);

@@ -26,7 +26,7 @@ double bytes_of(const NeuralParams& params, const Image& exemplar, const Target&
   reset_peak_memory();
   const double before = peak_memory();
   const Control control{[](const Progress& p) { return p.step < p.steps; }, checkpoint};
-  synthesise(params, exemplar, target, Random(1), control);
+  synthesise(params, {{{exemplar}}, target, Random(1)}, control);
   const double bytes = peak_memory() - before;
   std::filesystem::remove(checkpoint);
   return bytes;
@@ -54,7 +54,7 @@ TEST_P(NeuralMemory, IsAtMostTheEstimate) {
   params.iterations = {2, 1};
   change(params);
   bytes_of(params, grain({64, 64}, channels), {{64, 64}, Tile::both});  // the libraries start
-  const double estimated = estimate(params, exemplar, channels, {target, Tile::both}).bytes;
+  const double estimated = estimate(params, {{{exemplar, channels}}, target, Tile::both}).bytes;
   const double found = bytes_of(params, grain(exemplar, channels), {target, Tile::both});
   RecordProperty("found", fmt::format("{:.1f}", found / 1e6));
   RecordProperty("estimated", fmt::format("{:.1f}", estimated / 1e6));

@@ -24,7 +24,7 @@ inline Image painted(ProceduralTexture texture, double scale, std::uint64_t seed
   params.texture = std::move(texture);
   params.scale = scale;
   params.samples = 2;
-  return synthesise(params, Target{size, Tile::both}, Random(seed)).image;
+  return synthesise(params, {{}, Target{size, Tile::both}, Random(seed)}, {}).image;
 }
 
 inline Image brick(std::uint64_t seed = 1, int side = 128) {
@@ -38,14 +38,15 @@ inline Image stones(std::uint64_t seed = 1, int side = 128) {
 }
 
 inline Image quilted(const Image& exemplar, Size size = {128, 128}) {
-  return synthesise(QuiltingParams{}, exemplar, Target{size, Tile::both}, Random(1), Control{})
+  return synthesise(QuiltingParams{}, {{{exemplar}}, Target{size, Tile::both}, Random(1)},
+                    Control{})
       .image;
 }
 
 /// By the method that keeps structure best.
 inline Image optimised(const Image& exemplar) {
-  return synthesise(PatchmatchParams{}, exemplar, Target{exemplar.size(), Tile::both}, Random(1),
-                    Control{})
+  return synthesise(PatchmatchParams{},
+                    {{{exemplar}}, Target{exemplar.size(), Tile::both}, Random(1)}, Control{})
       .image;
 }
 

@@ -38,11 +38,12 @@ TEST(NeuralPatches, GoOnToTheSameBytes) {
     const Image whole = run(params, exemplar, target);
     for (const std::int64_t stop : {1, 3, 4, 5, 9, 10, 14, 15}) {  // levels end at 4, 9 and 15
       Trace first, second;
-      synthesise(params, exemplar, target, Random(1), first.control(stop, checkpoint));
+      synthesise(params, {{{exemplar}}, target, Random(1)}, first.control(stop, checkpoint));
       EXPECT_EQ(first.steps.back().step, stop);
       ASSERT_TRUE(fs::exists(checkpoint));
       const Image resumed =
-          synthesise(params, exemplar, target, Random(1), second.control(-1, checkpoint)).image;
+          synthesise(params, {{{exemplar}}, target, Random(1)}, second.control(-1, checkpoint))
+              .image;
       EXPECT_EQ(resumed, whole) << "stopped at " << stop;
       fs::remove(checkpoint);
     }
@@ -57,7 +58,8 @@ TEST(NeuralPatches, ReportsEachStepWithItsTerms) {
   params.autocorrelation_weight = 0.2;
   params.variation_weight = 0.3;
   Trace trace;
-  synthesise(params, stripes({64, 64}, 3), {{48, 40}, Tile::none}, Random(1), trace.control());
+  synthesise(params, {{{stripes({64, 64}, 3)}}, {{48, 40}, Tile::none}, Random(1)},
+             trace.control());
   ASSERT_EQ(trace.steps.size(), 15u);
   for (const auto& p : trace.steps) {
     std::vector<std::string> names;
@@ -82,7 +84,8 @@ TEST(NeuralPatches, WeightsCountOnceEach) {
   params.variation_weight = 0.3;
   const auto terms = [&] {
     Trace trace;
-    synthesise(params, stripes({40, 40}, 3), {{40, 40}, Tile::both}, Random(1), trace.control());
+    synthesise(params, {{{stripes({40, 40}, 3)}}, {{40, 40}, Tile::both}, Random(1)},
+               trace.control());
     return trace.steps.at(0).terms;
   };
   const auto once = terms();
@@ -112,7 +115,8 @@ Layout layout_of_result(const Image& exemplar, double copy_limit) {
   params.copy_limit = copy_limit;
   Trace trace;
   const Image result =
-      synthesise(params, exemplar, {{128, 128}, Tile::none}, Random(1), trace.control()).image;
+      synthesise(params, {{{exemplar}}, {{128, 128}, Tile::none}, Random(1)}, trace.control())
+          .image;
   const auto small = [](const Image& image) {
     return neural::resample(neural::to_planes(image), {32, 32}, Tile::none);
   };
@@ -134,14 +138,15 @@ TEST(NeuralPatches, LeaveItOutAlsoWhenInterruptedThere) {
   params.iterations = {2, 3, 4, 10, 250};
   const Target target{{128, 128}, Tile::none};
   Trace whole;
-  const Image expected = synthesise(params, exemplar, target, Random(1), whole.control()).image;
+  const Image expected =
+      synthesise(params, {{{exemplar}}, target, Random(1)}, whole.control()).image;
   for (const std::int64_t stop : {250, 251}) {
     const fs::path file = fs::path(testing::TempDir()) / "left_out.checkpoint";
     fs::remove(file);
     Trace first, second;
-    synthesise(params, exemplar, target, Random(1), first.control(stop, file));
+    synthesise(params, {{{exemplar}}, target, Random(1)}, first.control(stop, file));
     EXPECT_EQ(first.steps.size(), static_cast<std::size_t>(stop));
-    EXPECT_EQ(synthesise(params, exemplar, target, Random(1), second.control(-1, file)).image,
+    EXPECT_EQ(synthesise(params, {{{exemplar}}, target, Random(1)}, second.control(-1, file)).image,
               expected)
         << stop;
     EXPECT_EQ(first.steps.size() + second.steps.size(), whole.steps.size());

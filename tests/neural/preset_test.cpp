@@ -53,7 +53,8 @@ TEST_P(EveryPreset, LowersItsLoss) {
                           return true;
                         },
                         {}};
-  const Image result = synthesise(params, exemplar, {{96, 96}, tile}, Random(3), control).image;
+  const Image result =
+      synthesise(params, {{{exemplar}}, {{96, 96}, tile}, Random(3)}, control).image;
   EXPECT_EQ(result.size(), (Size{96, 96}));
   EXPECT_EQ(result.channels, channels);
   const int levels = neural::level_count(params, exemplar.size(), {{96, 96}, tile});
@@ -102,7 +103,7 @@ TEST(Presets, AConstantExemplarGivesAConstantImage) {
     for (const Tile tile : {Tile::none, Tile::both}) {
       const Image flat({48, 40}, 3, 0.3f);
       const Image result =
-          synthesise(shortened(preset), flat, {{52, 40}, tile}, Random(1), {}).image;
+          synthesise(shortened(preset), {{{flat}}, {{52, 40}, tile}, Random(1)}, {}).image;
       for (const float value : result.pixels) ASSERT_EQ(value, 0.3f);
     }
 }
@@ -126,9 +127,9 @@ TEST(Presets, ACheckerboardOfPixelsComesBack) {
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) *board.at(x, y) = static_cast<float>((x + y) % 2);
   for (const std::uint64_t seed : {1u, 2u}) {
-    const Image result =
-        synthesise(with_preset(Preset::balanced), board, {{64, 64}, Tile::both}, Random(seed), {})
-            .image;
+    const Image result = synthesise(with_preset(Preset::balanced),
+                                    {{{board}}, {{64, 64}, Tile::both}, Random(seed)}, {})
+                             .image;
     EXPECT_GT(part_of_checkerboards(result), 0.98) << "seed " << seed;
   }
 }
@@ -139,7 +140,7 @@ TEST(Presets, MapsStayRegistered) {
   for (int y = 0; y < 96; ++y)
     for (int x = 0; x < 96; ++x) exemplar.at(x, y)[1] = 1 - exemplar.at(x, y)[0];
   const Image result =
-      synthesise(shortened(Preset::balanced), exemplar, {{96, 96}, Tile::both}, Random(1), {})
+      synthesise(shortened(Preset::balanced), {{{exemplar}}, {{96, 96}, Tile::both}, Random(1)}, {})
           .image;
   double difference = 0;
   for (int y = 0; y < 96; ++y)

@@ -31,7 +31,7 @@ struct Trace {
 
 inline Image run(const NeuralParams& params, const Image& exemplar, const Target& target,
                  std::uint64_t seed = 1) {
-  return synthesise(params, exemplar, target, Random(seed), {}).image;
+  return synthesise(params, {{{exemplar}}, target, Random(seed)}, {}).image;
 }
 
 inline NeuralParams quick_patches() {

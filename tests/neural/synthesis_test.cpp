@@ -25,14 +25,16 @@ TEST(Neural, TheLossFallsAHundredfold) {
   NeuralParams params = quick();
   params.iterations = {80};
   Trace trace;
-  synthesise(params, stripes({64, 64}, 3), {{64, 64}, Tile::both}, Random(1), trace.control());
+  synthesise(params, {{{stripes({64, 64}, 3)}}, {{64, 64}, Tile::both}, Random(1)},
+             trace.control());
   ASSERT_FALSE(trace.steps.empty());
   EXPECT_LT(trace.steps.back().loss, trace.steps.front().loss / 100);
 }
 
 TEST(Neural, ReportsEachStepWithItsTerms) {
   Trace trace;
-  synthesise(quick(), stripes({48, 48}, 3), {{48, 40}, Tile::none}, Random(1), trace.control());
+  synthesise(quick(), {{{stripes({48, 48}, 3)}}, {{48, 40}, Tile::none}, Random(1)},
+             trace.control());
   ASSERT_EQ(trace.steps.size(), 12u);
   for (std::size_t i = 0; i < trace.steps.size(); ++i) {
     const Progress& p = trace.steps[i];
@@ -113,13 +115,13 @@ TEST(Neural, TrainedWeightsForOtherChannelsAreAClearError) {
               std::string::npos)
         << error.what();
   }
-  EXPECT_THROW(estimate(params, {64, 64}, 4, {{64, 64}, Tile::none}), Error);
+  EXPECT_THROW(estimate(params, {{{{64, 64}, 4}}, {64, 64}, Tile::none}), Error);
 }
 
 TEST(Neural, WeightsThatAreNotThereAreAMistakeOfTheConfig) {
   NeuralParams params = quick();
   params.weights = "no_such_weights";
-  EXPECT_THROW(estimate(params, {64, 64}, 3, {{64, 64}, Tile::none}), ConfigError);
+  EXPECT_THROW(estimate(params, {{{{64, 64}, 3}}, {64, 64}, Tile::none}), ConfigError);
 }
 
 TEST(Neural, CoarseToFineEndsAtTheFinestSize) {
@@ -128,8 +130,8 @@ TEST(Neural, CoarseToFineEndsAtTheFinestSize) {
   params.level_factor = 0.6;
   params.iterations = {4};
   Trace trace;
-  const Texture texture =
-      synthesise(params, stripes({64, 64}, 3), {{50, 70}, Tile::both}, Random(1), trace.control());
+  const Texture texture = synthesise(
+      params, {{{stripes({64, 64}, 3)}}, {{50, 70}, Tile::both}, Random(1)}, trace.control());
   EXPECT_EQ(texture.image.size(), (Size{50, 70}));
   EXPECT_EQ(trace.steps.back().step, 12);
   EXPECT_EQ(trace.steps.back().steps, 12);
@@ -140,13 +142,15 @@ TEST(Neural, StopsByLossAndBySeconds) {
   params.iterations = {200};
   params.stop_loss = 0.3;
   Trace by_loss;
-  synthesise(params, stripes({48, 48}, 3), {{48, 48}, Tile::both}, Random(1), by_loss.control());
+  synthesise(params, {{{stripes({48, 48}, 3)}}, {{48, 48}, Tile::both}, Random(1)},
+             by_loss.control());
   EXPECT_LT(by_loss.steps.size(), 200u);
   EXPECT_LE(by_loss.steps.back().loss, 0.3 * by_loss.steps.front().loss);
   params.stop_loss = 0;
   params.stop_seconds = 0;
   Trace by_seconds;
-  synthesise(params, stripes({48, 48}, 3), {{48, 48}, Tile::both}, Random(1), by_seconds.control());
+  synthesise(params, {{{stripes({48, 48}, 3)}}, {{48, 48}, Tile::both}, Random(1)},
+             by_seconds.control());
   EXPECT_EQ(by_seconds.steps.size(), 1u);
 }
 
@@ -180,8 +184,8 @@ TEST(Neural, LevelsEndWhereAPatchNoLongerFits) {
 TEST(Neural, WhatIsSmallerThanAPatchIsRefusedBeforehand) {
   const NeuralParams params;
   const Target target{{64, 64}, Tile::both};
-  EXPECT_NO_THROW(estimate(params, {7, 7}, 3, target));
-  EXPECT_THROW(estimate(params, {6, 40}, 3, target), Error);
+  EXPECT_NO_THROW(estimate(params, {{{{7, 7}, 3}}, target.size, target.tile}));
+  EXPECT_THROW(estimate(params, {{{{6, 40}, 3}}, target.size, target.tile}), Error);
 }
 
 class Interrupted : public testing::TestWithParam<Optimizer> {};
@@ -198,11 +202,11 @@ TEST_P(Interrupted, GoesOnToTheSameBytes) {
   const Image whole = run(params, exemplar, target);
   for (const std::int64_t stop : {1, 7, 12, 13, 20}) {
     Trace first, second;
-    synthesise(params, exemplar, target, Random(1), first.control(stop, checkpoint));
+    synthesise(params, {{{exemplar}}, target, Random(1)}, first.control(stop, checkpoint));
     EXPECT_EQ(first.steps.back().step, stop);
     ASSERT_TRUE(fs::exists(checkpoint));
     const Image resumed =
-        synthesise(params, exemplar, target, Random(1), second.control(-1, checkpoint)).image;
+        synthesise(params, {{{exemplar}}, target, Random(1)}, second.control(-1, checkpoint)).image;
     EXPECT_EQ(second.steps.front().step, stop + 1);
     EXPECT_EQ(resumed, whole) << "stopped at " << stop;
     fs::remove(checkpoint);
@@ -221,12 +225,14 @@ TEST_P(Interrupted, StaysStoppedWhereItsLossWasLowEnough) {
       fs::path(testing::TempDir()) / fmt::format("loss_{}.checkpoint", to_word(GetParam()));
   fs::remove(checkpoint);
   Trace whole, first, second;
-  const Image expected = synthesise(params, exemplar, target, Random(1), whole.control()).image;
+  const Image expected =
+      synthesise(params, {{{exemplar}}, target, Random(1)}, whole.control()).image;
   const auto last_coarse = std::find_if(whole.steps.rbegin(), whole.steps.rend(),
                                         [](const auto& p) { return p.step <= 200; });
-  synthesise(params, exemplar, target, Random(1), first.control(last_coarse->step, checkpoint));
+  synthesise(params, {{{exemplar}}, target, Random(1)},
+             first.control(last_coarse->step, checkpoint));
   const Image resumed =
-      synthesise(params, exemplar, target, Random(1), second.control(-1, checkpoint)).image;
+      synthesise(params, {{{exemplar}}, target, Random(1)}, second.control(-1, checkpoint)).image;
   EXPECT_EQ(second.steps.front().step, 201);
   EXPECT_EQ(resumed, expected);
   fs::remove(checkpoint);
@@ -237,8 +243,8 @@ TEST_P(Interrupted, OnACoarseLevelThePictureHasItsSizeAllTheSame) {
   params.optimizer = {GetParam()};
   params.levels = 2;
   Trace trace;
-  const Texture texture =
-      synthesise(params, stripes({48, 48}, 3), {{50, 38}, Tile::x}, Random(1), trace.control(2));
+  const Texture texture = synthesise(
+      params, {{{stripes({48, 48}, 3)}}, {{50, 38}, Tile::x}, Random(1)}, trace.control(2));
   EXPECT_EQ(texture.image.size(), (Size{50, 38}));
 }
 
@@ -250,8 +256,8 @@ TEST_P(Interrupted, ACheckpointOfAnotherSynthesisIsNotUsed) {
   const fs::path checkpoint =
       fs::path(testing::TempDir()) / fmt::format("other_{}.checkpoint", to_word(GetParam()));
   Trace first, second;
-  synthesise(params, exemplar, target, Random(1), first.control(5, checkpoint));
-  synthesise(params, exemplar, target, Random(2), second.control(-1, checkpoint));
+  synthesise(params, {{{exemplar}}, target, Random(1)}, first.control(5, checkpoint));
+  synthesise(params, {{{exemplar}}, target, Random(2)}, second.control(-1, checkpoint));
   EXPECT_EQ(second.steps.front().step, 1);
   fs::remove(checkpoint);
 }
@@ -281,7 +287,8 @@ TEST(Neural, ListsAreReadFromTheFinestLevel) {
   EXPECT_EQ(neural::steps_down_to(params, 4, 0), 5 + 3 * 3);
   EXPECT_EQ(neural::steps_down_to(params, 4, 1), 3 * 3);
   Trace trace;
-  synthesise(params, stripes({60, 60}, 1), {{60, 60}, Tile::both}, Random(1), trace.control());
+  synthesise(params, {{{stripes({60, 60}, 1)}}, {{60, 60}, Tile::both}, Random(1)},
+             trace.control());
   ASSERT_GT(trace.steps.size(), 9u);
   // One evaluation for each step of Adam; L-BFGS begins with two.
   for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(trace.steps[i].evaluations, trace.steps[i].step);
@@ -292,8 +299,8 @@ TEST(Neural, LevelsWithoutStepsAreSkipped) {
   NeuralParams params = quick_patches();
   params.iterations = {4, 0, 3};
   Trace trace;
-  const Texture texture =
-      synthesise(params, stripes({60, 60}, 3), {{50, 40}, Tile::both}, Random(1), trace.control());
+  const Texture texture = synthesise(
+      params, {{{stripes({60, 60}, 3)}}, {{50, 40}, Tile::both}, Random(1)}, trace.control());
   EXPECT_EQ(texture.image.size(), (Size{50, 40}));
   EXPECT_EQ(trace.steps.size(), 7u);
 }
@@ -304,7 +311,7 @@ TEST(Neural, SettingsThatCannotBeAreMistakesOfTheConfig) {
     change(params);
     const Image exemplar = stripes({40, 40}, 3);
     try {
-      estimate(params, exemplar.size(), 3, {{40, 40}, Tile::both});
+      estimate(params, {{{exemplar.size(), 3}}, {40, 40}, Tile::both});
     } catch (const ConfigError& error) {
       EXPECT_THROW(run(params, exemplar, {{40, 40}, Tile::both}), ConfigError);
       return error.what();
@@ -326,7 +333,7 @@ TEST(Neural, SettingsThatCannotBeAreMistakesOfTheConfig) {
 TEST(Neural, APyramidHasNoValidEdges) {
   NeuralParams params = with_preset(Preset::gatys);
   params.padding = Padding::valid;
-  EXPECT_THROW(estimate(params, {64, 64}, 3, {{64, 64}, Tile::none}), ConfigError);
+  EXPECT_THROW(estimate(params, {{{{64, 64}, 3}}, {64, 64}, Tile::none}), ConfigError);
   EXPECT_THROW(run(params, stripes({64, 64}, 3), {{64, 64}, Tile::none}), ConfigError);
 }
 

@@ -70,7 +70,7 @@ TEST(Texture, EveryTextureHasTheSizeTheRangeAndTheSameBytesForAnyThreads) {
       for (const Tile tile : {Tile::none, Tile::x, Tile::both}) {
         const auto run = [&](int threads) {
           const Threads with(threads);
-          return synthesise(params_of(texture), {size, tile}, Random(5));
+          return synthesise(params_of(texture), {{}, {size, tile}, Random(5)}, {});
         };
         const Texture one = run(1), three = run(3);
         EXPECT_EQ(one.image, three.image) << texture.name;
@@ -92,7 +92,7 @@ TEST(Texture, EveryTextureHasTheSizeTheRangeAndTheSameBytesForAnyThreads) {
 TEST(Texture, EveryTextureHasSomethingToSeeAndMaterialsDependOnTheSeed) {
   for_each_texture([](const auto& texture) {
     const auto at = [&](std::uint64_t seed) {
-      return synthesise(params_of(texture), {{64, 64}, Tile::none}, Random(seed)).image;
+      return synthesise(params_of(texture), {{}, {{64, 64}, Tile::none}, Random(seed)}, {}).image;
     };
     const Image a = at(1);
     EXPECT_GT(difference(a, Image(64, 64, 3, a.pixels[0])), 0.01f) << texture.name;
@@ -139,15 +139,15 @@ TEST(Texture, EveryTextureRepeatsWhereThePictureTiles) {
 TEST(Texture, CheckerboardAndStripesAreTheirFormulas) {
   ProceduralParams params = params_of(Checkerboard{.first = {1, 1, 1}, .second = {0, 0, 0}});
   params.samples = 1;
-  const Image board = synthesise(params, {{64, 64}, Tile::none}, Random(1)).image;
+  const Image board = synthesise(params, {{}, {{64, 64}, Tile::none}, Random(1)}, {}).image;
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) EXPECT_EQ(*board.at(x, y), (x / 8 + y / 8) % 2 == 0 ? 1.0f : 0.0f);
   params.depth = 1;  // the next layer of cubes
-  const Image below = synthesise(params, {{64, 64}, Tile::none}, Random(1)).image;
+  const Image below = synthesise(params, {{}, {{64, 64}, Tile::none}, Random(1)}, {}).image;
   EXPECT_EQ(*below.at(3, 3), 0);
 
   params = params_of(Stripes{.first = {1, 1, 1}, .second = {0, 0, 0}});
-  const Image stripes = synthesise(params, {{64, 64}, Tile::none}, Random(1)).image;
+  const Image stripes = synthesise(params, {{}, {{64, 64}, Tile::none}, Random(1)}, {}).image;
   for (int x = 0; x < 64; ++x)  // a feature is two stripes; sign(sin(πx/w)) with w half of it
     EXPECT_EQ(*stripes.at(x, 9), std::sin(3.14159265 * (x + 0.5) / 4) > 0 ? 1.0f : 0.0f);
 }
@@ -159,7 +159,8 @@ TEST(Texture, BrickAndTileAreTheirFormulas) {
   brick.wear = 0;
   ProceduralParams params = params_of(brick);
   params.scale = 2;
-  const Image mortar = synthesise(params, {{128, 128}, Tile::both}, Random(1)).maps.at("mask");
+  const Image mortar =
+      synthesise(params, {{}, {{128, 128}, Tile::both}, Random(1)}, {}).maps.at("mask");
   for (int y = 0; y < 128; ++y)
     for (int x = 0; x < 128; ++x) {
       const double v = (y + 0.5) / 32, row = std::floor(v);
@@ -174,7 +175,8 @@ TEST(Texture, BrickAndTileAreTheirFormulas) {
   tiles.grout = 0.25;
   params = params_of(tiles);
   params.scale = 4;
-  const Image grout = synthesise(params, {{128, 96}, Tile::none}, Random(1)).maps.at("mask");
+  const Image grout =
+      synthesise(params, {{}, {{128, 96}, Tile::none}, Random(1)}, {}).maps.at("mask");
   for (int y = 0; y < 96; ++y)
     for (int x = 0; x < 128; ++x) {
       const double u = (x + 0.5) / 24, v = (y + 0.5) / 24;
@@ -188,9 +190,10 @@ TEST(Texture, BrickAndTileAreTheirFormulas) {
 TEST(Texture, EdgesAreSmoothWithOneSampleAndClearWithMany) {
   ProceduralParams params = params_of(Dots{});
   params.samples = 1;
-  const Image one = synthesise(params, {{96, 96}, Tile::both}, Random(1)).maps.at("mask");
+  const Image one = synthesise(params, {{}, {{96, 96}, Tile::both}, Random(1)}, {}).maps.at("mask");
   params.samples = 16;
-  const Image many = synthesise(params, {{96, 96}, Tile::both}, Random(1)).maps.at("mask");
+  const Image many =
+      synthesise(params, {{}, {{96, 96}, Tile::both}, Random(1)}, {}).maps.at("mask");
   int between = 0;
   for (const float v : one.pixels) between += v > 0.05f && v < 0.95f;
   EXPECT_GT(between, 1000);
@@ -201,9 +204,9 @@ TEST(Texture, APlaneCutsTheSolid) {
   // Turned by 90° the picture's x axis is the solid's depth: the middle column is where both meet.
   ProceduralParams params = params_of(Marble{});
   params.samples = 1;
-  const Image front = synthesise(params, {{33, 33}, Tile::none}, Random(1)).image;
+  const Image front = synthesise(params, {{}, {{33, 33}, Tile::none}, Random(1)}, {}).image;
   params.turn = 90;
-  const Image side = synthesise(params, {{33, 33}, Tile::none}, Random(1)).image;
+  const Image side = synthesise(params, {{}, {{33, 33}, Tile::none}, Random(1)}, {}).image;
   for (int y = 0; y < 33; ++y) EXPECT_NEAR(*front.at(16, y), *side.at(16, y), 0.02);
   EXPECT_GT(difference(front, side), 0.02f);
 }
@@ -215,14 +218,14 @@ TEST(Texture, FramesMoveThroughTheSolidAndALoopComesBack) {
     ProceduralParams params = params_of(noise);
     params.frames = 4;
     params.travel = 2;
-    const Texture sequence = synthesise(params, {{32, 32}, Tile::both}, Random(1));
+    const Texture sequence = synthesise(params, {{}, {{32, 32}, Tile::both}, Random(1)}, {});
     ASSERT_EQ(sequence.maps.size(), 5u);  // and the height
     EXPECT_EQ(sequence.maps.at("frame_0001"), sequence.image);
     EXPECT_NE(sequence.maps.at("frame_0002"), sequence.image);
     if (dimensions == 3) {
       params.frames = 1;
       params.depth = 0.5;
-      EXPECT_LT(difference(synthesise(params, {{32, 32}, Tile::both}, Random(1)).image,
+      EXPECT_LT(difference(synthesise(params, {{}, {{32, 32}, Tile::both}, Random(1)}, {}).image,
                            sequence.maps.at("frame_0002")),
                 1e-5f);
     }
@@ -231,10 +234,11 @@ TEST(Texture, FramesMoveThroughTheSolidAndALoopComesBack) {
     params.frames = 1;
     params.loop = true;
     params.depth = 0;
-    const Image begin = synthesise(params, {{32, 32}, Tile::both}, Random(1)).image;
+    const Image begin = synthesise(params, {{}, {{32, 32}, Tile::both}, Random(1)}, {}).image;
     params.depth = params.travel;
-    EXPECT_LT(difference(synthesise(params, {{32, 32}, Tile::both}, Random(1)).image, begin),
-              1e-4f);
+    EXPECT_LT(
+        difference(synthesise(params, {{}, {{32, 32}, Tile::both}, Random(1)}, {}).image, begin),
+        1e-4f);
   }
 }
 
@@ -242,27 +246,33 @@ TEST(Texture, WhatDoesNotFitIsAnError) {
   const Target target{{16, 16}, Tile::none};
   ProceduralParams params = params_of(Brick{});
   params.frames = 2;
-  EXPECT_THAT([&] { synthesise(params, target, Random(1)); },
-              ThrowsMessage<ConfigError>(HasSubstr("'brick' is flat")));
+  EXPECT_THAT(
+      [&] {
+        synthesise(params, {{}, target, Random(1)}, {});
+      },
+      ThrowsMessage<ConfigError>(HasSubstr("'brick' is flat")));
   params = params_of(Marble{});
   params.tilt = 10;
-  EXPECT_THROW(synthesise(params, {{16, 16}, Tile::x}, Random(1)), ConfigError);
+  EXPECT_THROW(synthesise(params, {{}, {{16, 16}, Tile::x}, Random(1)}, {}), ConfigError);
   Marble marble;
   marble.layers = {1, 2};
   params = params_of(marble);
-  EXPECT_THAT([&] { synthesise(params, target, Random(1)); },
-              ThrowsMessage<ConfigError>(HasSubstr("layers")));
+  EXPECT_THAT(
+      [&] {
+        synthesise(params, {{}, target, Random(1)}, {});
+      },
+      ThrowsMessage<ConfigError>(HasSubstr("layers")));
   Noise noise;
   noise.octaves = 99;
   params = params_of(noise);
-  EXPECT_THROW(synthesise(params, target, Random(1)), ConfigError);
+  EXPECT_THROW(synthesise(params, {{}, target, Random(1)}, {}), ConfigError);
   noise = Noise{};
   noise.colours = {1, 1, 1, 0};
   params = params_of(noise);
-  EXPECT_THROW(synthesise(params, target, Random(1)), ConfigError);
+  EXPECT_THROW(synthesise(params, {{}, target, Random(1)}, {}), ConfigError);
   params = params_of(Noise{});
   params.scale = std::nan("");
-  EXPECT_THROW(synthesise(params, target, Random(1)), ConfigError);
+  EXPECT_THROW(synthesise(params, {{}, target, Random(1)}, {}), ConfigError);
 }
 
 TEST(Texture, OctavesFinerThanAnySampleAreLeftOut) {
@@ -271,7 +281,8 @@ TEST(Texture, OctavesFinerThanAnySampleAreLeftOut) {
   noise.lacunarity = 8;
   noise.gain = 1;
   for (noise.dimensions = 1; noise.dimensions <= 4; ++noise.dimensions) {
-    const Image image = synthesise(params_of(noise), {{32, 32}, Tile::both}, Random(1)).image;
+    const Image image =
+        synthesise(params_of(noise), {{}, {{32, 32}, Tile::both}, Random(1)}, {}).image;
     const ChannelRange range = channel_range(image);
     EXPECT_GT(range.low[0], 0.05f);
     EXPECT_LT(range.high[0], 0.95f);
@@ -282,7 +293,7 @@ TEST(Texture, OctavesFinerThanAnySampleAreLeftOut) {
 TEST(Texture, StopsWhenAsked) {
   Control control;
   control.progress = [](const Progress&) { return false; };
-  EXPECT_THROW(synthesise(params_of(Noise{}), {{16, 16}, Tile::none}, Random(1), control),
+  EXPECT_THROW(synthesise(params_of(Noise{}), {{}, {{16, 16}, Tile::none}, Random(1)}, control),
                Interrupted);
 }
 

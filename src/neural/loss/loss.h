@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/progress.h"
+#include "core/request.h"
 #include "neural/loss/features.h"
 
 namespace gramloom::neural {

@@ -12,7 +12,7 @@ namespace gramloom::neural {
 namespace {
 
 template <class T>
-bool is(const Layer& layer) {
+bool is(const NetworkLayer& layer) {
   return std::holds_alternative<T>(layer.kind);
 }
 

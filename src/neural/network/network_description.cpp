@@ -45,8 +45,8 @@ void check_branches(BankLayer& bank, const toml::table& table) {
   check(bank.blurs.size(), "blurs");
 }
 
-Layer read_layer(const toml::table& table) {
-  Layer layer{required_text(table, "name"), read_kind(table)};
+NetworkLayer read_layer(const toml::table& table) {
+  NetworkLayer layer{required_text(table, "name"), read_kind(table)};
   if (const auto* convolution = std::get_if<ConvolutionLayer>(&layer.kind))
     check_odd(convolution->kernel, table, "kernel");
   if (const auto* pyramid = std::get_if<PyramidLayer>(&layer.kind))

@@ -101,7 +101,7 @@ struct MaxPoolLayer {
 using LayerKind = std::variant<ConvolutionLayer, BankLayer, PyramidLayer, ReluLayer,
                                AveragePoolLayer, MaxPoolLayer>;
 
-struct Layer {
+struct NetworkLayer {
   std::string name;
   LayerKind kind;
 };
@@ -115,7 +115,7 @@ struct NetworkDescription {
   /// picture in [0, 1]. Empty for networks that are only ever random.
   std::vector<double> input_mean;
   std::vector<double> input_deviation;
-  std::vector<Layer> layers;
+  std::vector<NetworkLayer> layers;
 
   static constexpr auto fields() {
     using N = NetworkDescription;

@@ -1,0 +1,36 @@
+#include "core/request.h"
+
+#include <algorithm>
+
+#include "core/threads.h"
+
+namespace gramloom {
+
+RequestSize size_of(const Request& request) {
+  RequestSize result;
+  for (const Exemplar& exemplar : request.exemplars)
+    result.exemplars.push_back({exemplar.image.size(), exemplar.image.channels,
+                                !exemplar.mask.empty(), !exemplar.guide.empty()});
+  const Target& target = request.target;
+  result.size = target.size;
+  result.tile = target.tile;
+  result.known = !target.known.empty() || !target.mask.empty();
+  result.guide = !target.guide.empty();
+  return result;
+}
+
+Image arranged(const SourceMap& sources, const std::vector<Exemplar>& exemplars) {
+  const int channels = exemplars.front().image.channels;
+  Image result(sources.size, channels);
+  parallel_for(result.height, 16, [&](std::int64_t begin, std::int64_t end) {
+    for (int y = static_cast<int>(begin); y < end; ++y) {
+      const Source* source = sources.at(0, y);
+      float* to = result.at(0, y);
+      for (int x = 0; x < result.width; ++x, ++source, to += channels)
+        std::copy_n(exemplars[source->exemplar].image.at(source->x, source->y), channels, to);
+    }
+  });
+  return result;
+}
+
+}  // namespace gramloom
