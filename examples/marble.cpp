@@ -11,11 +11,11 @@ int main(int count, char** arguments) try {
   ProceduralParams params;
   params.texture = Marble{};
   params.scale = 4;  // features along the shorter side
-  const Target target{{384, 256}};
-  write_image(arguments[1], synthesise(params, target, Random(1)).image, {});
+  const Request request{.target = {{384, 256}}};
+  write_image(arguments[1], synthesise(params, request, {}).image, {});
 
   params.depth = 0.5;  // the same stone, half a feature further in
-  write_image(arguments[2], synthesise(params, target, Random(1)).image, {});
+  write_image(arguments[2], synthesise(params, request, {}).image, {});
 } catch (const gramloom::Error& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;

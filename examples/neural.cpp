@@ -11,9 +11,8 @@ int main(int count, char** arguments) try {
   if (count != 3) throw Error("neural EXEMPLAR RESULT");
   const ImageFile exemplar = read_image(arguments[1]);
   const NeuralParams params = with_preset(Preset::fast);
-  const Target target{{128, 128}, Tile::both};
-  std::printf("expected: %.0f s\n",
-              estimate(params, exemplar.image.size(), exemplar.image.channels, target).seconds);
+  const Request request{.exemplars = {{exemplar.image}}, .target = {{128, 128}, Tile::both}};
+  std::printf("expected: %.0f s\n", estimate(params, size_of(request)).seconds);
 
   Control control;
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
@@ -22,7 +21,7 @@ int main(int count, char** arguments) try {
       std::printf("step %ld of %ld, loss %.4g\n", long(p.step), long(p.steps), p.loss);
     return std::chrono::steady_clock::now() < end;  // false: stop with what there is
   };
-  const Texture texture = synthesise(params, exemplar.image, target, Random(1), control);
+  const Texture texture = synthesise(params, request, control);
   write_image(arguments[2], texture.image, exemplar.encoding);
 } catch (const gramloom::Error& error) {
   std::fprintf(stderr, "%s\n", error.what());

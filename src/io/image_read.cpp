@@ -9,20 +9,13 @@
 #include "io/check_finite.h"
 #include "io/image_file.h"
 #include "io/image_record.h"
+#include "io/pictures_module.h"
 #include "io/png_chunks.h"
 
 namespace gramloom {
 namespace {
 
 namespace fs = std::filesystem;
-
-void check_file(const fs::path& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (error) throw Error("cannot read: {}", error.message());
-  if (fs::is_directory(status)) throw Error("cannot read: Is a directory");
-  if (fs::is_regular_file(status) && fs::file_size(path) == 0) throw Error("the file is empty");
-}
 
 std::string first_line(std::string text) {
   text.resize(std::min(text.find('\n'), text.size()));
@@ -161,9 +154,8 @@ ImageFile read_open(OIIO::ImageInput& input) {
 
 }  // namespace
 
-ImageFile read_image(const fs::path& path) {
+ImageFile pictures::read(const fs::path& path) {
   try {
-    check_file(path);
     check_png_chunks(path);
     const auto input = open_image(path);
     std::error_code ignored;

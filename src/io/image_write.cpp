@@ -9,6 +9,7 @@
 #include "io/check_finite.h"
 #include "io/image_file.h"
 #include "io/image_record.h"
+#include "io/pictures_module.h"
 #include "io/text_file.h"
 
 namespace gramloom {
@@ -138,11 +139,10 @@ std::string encode(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec, const
 
 }  // namespace
 
-void write_image(const fs::path& path, const Image& image, const Encoding& encoding,
-                 const Metadata& metadata) {
+void pictures::write(const fs::path& path, const Image& image, const Encoding& encoding,
+                     const Metadata& metadata) {
   std::string bytes;
   try {
-    if (image.empty()) throw Error("an empty image cannot be written");
     check_finite(image);
     const auto output = OIIO::ImageOutput::create(path.string());
     const Format& format = format_of(output.get(), path);

@@ -1,13 +1,13 @@
-#include "neural/blas_speed.h"
-
 #include <ATen/ATen.h>
 
 #include <algorithm>
 #include <chrono>
 
-namespace gramloom {
+#include "neural/module.h"
 
-double blas_gigaflops() {
+namespace gramloom::neural {
+
+double measure_blas() {
   constexpr std::int64_t side = 256;
   const at::Tensor a = at::ones({side, side}), b = at::ones({side, side});
   double best = 0;
@@ -20,4 +20,4 @@ double blas_gigaflops() {
   return best;
 }
 
-}  // namespace gramloom
+}  // namespace gramloom::neural

@@ -1,5 +1,3 @@
-#include "neural/synthesis.h"
-
 #include <ATen/Parallel.h>
 #include <c10/core/GradMode.h>
 #include <malloc.h>
@@ -13,17 +11,17 @@
 #include "neural/checkpoint.h"
 #include "neural/layout.h"
 #include "neural/loss/loss.h"
+#include "neural/module.h"
 #include "neural/network/make_network.h"
 #include "neural/picture.h"
 #include "neural/resample.h"
 #include "neural/settings.h"
 #include "signal/histogram_match.h"
 
-namespace gramloom {
+namespace gramloom::neural {
 
 namespace {
 
-using namespace neural;
 using Clock = std::chrono::steady_clock;
 
 constexpr double seconds_between_checkpoints = 60;
@@ -249,9 +247,7 @@ class Synthesis {
 
 }  // namespace
 
-Texture synthesise(const NeuralParams& params, const Request& request, const Control& control) {
-  check_settings(params);
-  check_request<NeuralParams>(request);
+Texture run_synthesis(const NeuralParams& params, const Request& request, const Control& control) {
   const Image& exemplar = request.exemplars.front().image;
   const c10::NoGradGuard no_gradients;
   at::set_num_threads(thread_count());
@@ -263,4 +259,4 @@ Texture synthesise(const NeuralParams& params, const Request& request, const Con
   return texture;
 }
 
-}  // namespace gramloom
+}  // namespace gramloom::neural

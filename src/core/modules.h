@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace gramloom {
+
+// Parts of the program that bring large libraries along (LibTorch, OpenImageIO) are shared
+// libraries of their own, opened when they are first needed: all else starts without them.
+
+namespace detail {
+const void* open_module(std::string_view name);
+}
+
+/// The functions of a module. `Functions` is a struct of pointers to functions with the module's
+/// `name`; libgramloom_NAME.so, beside the library of this function, defines one as
+/// `extern "C" const Functions gramloom_NAME_module`. Exceptions pass through. Throws Error when
+/// the module, or a library that it needs, cannot be opened.
+template <class Functions>
+const Functions& open_module() {
+  static const auto& functions =
+      *static_cast<const Functions*>(detail::open_module(Functions::name));
+  return functions;
+}
+
+}  // namespace gramloom

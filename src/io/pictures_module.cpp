@@ -1,0 +1,8 @@
+#include "io/pictures_module.h"
+
+namespace gramloom {
+
+extern "C" const PicturesModule gramloom_pictures_module;
+const PicturesModule gramloom_pictures_module{pictures::read, pictures::write};
+
+}  // namespace gramloom

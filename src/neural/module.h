@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string_view>
+
+#include "neural/synthesis.h"
+
+namespace gramloom {
+
+/// What of neural/ needs LibTorch, and so lies in a module (core/modules.h): all but parameters,
+/// presets, network descriptions, levels and costs.
+struct NeuralModule {
+  static constexpr std::string_view name = "neural";
+  Texture (*synthesise)(const NeuralParams& params, const Request& request, const Control& control);
+  double (*blas_gigaflops)();
+};
+
+namespace neural {
+Texture run_synthesis(const NeuralParams& params, const Request& request, const Control& control);
+double measure_blas();
+}  // namespace neural
+
+}  // namespace gramloom

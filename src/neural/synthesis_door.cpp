@@ -1,0 +1,19 @@
+// Where the rest of the program enters the module that needs LibTorch.
+#include "core/abilities.h"
+#include "core/modules.h"
+#include "neural/blas_speed.h"
+#include "neural/module.h"
+#include "neural/settings.h"
+#include "neural/synthesis.h"
+
+namespace gramloom {
+
+Texture synthesise(const NeuralParams& params, const Request& request, const Control& control) {
+  neural::check_settings(params);
+  check_request<NeuralParams>(request);
+  return open_module<NeuralModule>().synthesise(params, request, control);
+}
+
+double blas_gigaflops() { return open_module<NeuralModule>().blas_gigaflops(); }
+
+}  // namespace gramloom
