@@ -25,6 +25,7 @@
 #include "jobs/runner.h"
 #include "jobs/score_files.h"
 #include "report/page.h"
+#include "runs/format.h"
 
 namespace {
 
@@ -81,7 +82,7 @@ std::optional<Baseline> earlier_run(const Arguments& arguments, const RunOptions
     if (std::filesystem::equivalent(arguments.baseline, options.output, ignored))
       throw Error("this run would write over it; choose another --output");
     Baseline baseline = read_baseline(arguments.baseline, options.only);
-    check_pictures(baseline);
+    check_baseline(baseline);
     return baseline;
   } catch (const Error& error) {
     throw ConfigError("--baseline {}: {}", arguments.baseline, error.what());
@@ -95,7 +96,8 @@ bool got_worse(const Baseline& before, const Config& config, const RunOptions& o
   const NothingToKeep scope;
   const Baseline now = read_baseline(options.output, options.only);
   const auto changes = compare(before, now, config.baseline);
-  write_text(options.output / "baseline.json", change_json(changes, before, config.baseline));
+  write_format(options.output / "baseline.json",
+               comparison_record(changes, before, config.baseline));
   if (!quiet || !changes.empty()) print(change_table(changes, before, now));
   return count_worse(changes) > 0;
 }
@@ -192,7 +194,14 @@ ExitCode score_command(const Arguments& arguments) {
       static_cast<Tile>(std::find(names.begin(), names.end(), arguments.tile) - names.begin());
   const auto scored =
       score_files(arguments.exemplar, arguments.images, tile, arguments.controls, {});
-  return print(arguments.json ? score_json(scored) : score_table(scored));
+  ExitCode code = all_done;
+  for (const ScoredImage& image : scored) {
+    if (image.error.empty()) continue;
+    print_message(fmt::format("gramloom: {}", image.error));
+    code = job_failed;
+  }
+  print(arguments.json ? score_json(scored) : score_table(scored));
+  return code;
 }
 
 void add_config_options(CLI::App& command, Arguments& arguments) {

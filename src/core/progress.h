@@ -35,6 +35,9 @@ struct Control {
   /// Iterative methods save their state here when they stop early or every minute, and go on from
   /// it if it exists; empty: nowhere.
   std::filesystem::path checkpoint;
+  /// Everything that the result depends on, as one text (a hash of it, say). It is kept with the
+  /// state, and a state with another one is not gone on from: equal texts promise equal work.
+  std::string identity;
 
   /// Reports; false when the work should stop.
   bool report(const Progress& p) const { return !progress || progress(p); }

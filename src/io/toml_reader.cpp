@@ -33,10 +33,11 @@ std::string type_name(const toml::node& node) {
   }
 }
 
-[[noreturn]] void out_of_range(double value, bool integer, const detail::Slot& slot) {
+[[noreturn]] void out_of_range(const auto& value, const detail::Slot& slot) {
+  constexpr bool integer = std::is_integral_v<std::decay_t<decltype(value)>>;
   if (integer)
     fail(slot.region, "'{}' = {:.0f}: allowed are {}", slot.key, value, describe(slot.range, true));
-  fail(slot.region, "'{}' = {}: allowed are {}", slot.key, value, describe(slot.range, false));
+  fail(slot.region, "'{}' = {}: allowed are {}", slot.key, value, describe(slot.range, integer));
 }
 
 // The folder that paths at this place are relative to: the config's, or for --set the current one.
@@ -113,7 +114,7 @@ std::int64_t read_integer(const toml::node& node, const Slot& slot, const std::s
   if (!node.is_integer()) wrong_type(node, slot, allowed);
   const std::int64_t value = *node.value<std::int64_t>();
   const auto number = static_cast<double>(value);
-  if (!slot.range.contains(number)) out_of_range(number, true, slot);
+  if (!slot.range.contains(number)) out_of_range(value, slot);
   if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max())
     fail(slot.region, "'{}' = {} is too large", slot.key, value);
   return value;
@@ -122,7 +123,7 @@ std::int64_t read_integer(const toml::node& node, const Slot& slot, const std::s
 double read_number(const toml::node& node, const Slot& slot, const std::string& allowed) {
   if (!node.is_integer() && !node.is_floating_point()) wrong_type(node, slot, allowed);
   const double value = *node.value<double>();
-  if (!slot.range.contains(value)) out_of_range(value, false, slot);
+  if (!slot.range.contains(value)) out_of_range(value, slot);
   return value;
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "runs/diversity.h"
 #include "runs/record.h"
-#include "runs/score_sheet.h"
 
 namespace gramloom {
 
@@ -18,10 +18,11 @@ struct Baseline {
 };
 
 /// Reads what a run left in `folder`, of the jobs that match `only` (job_matches()). Throws Error
-/// with the file that is missing or broken: run.json or the record of a job in it.
+/// with the file, and the key, that is missing or broken: run.json or the record of a job in it.
 Baseline read_baseline(const std::filesystem::path& folder, const std::string& only);
 
-/// Throws Error for a picture of a finished job that cannot be read.
-void check_pictures(const Baseline& baseline);
+/// Throws Error when nothing can be compared with it: no job is finished, or the picture of one
+/// cannot be read.
+void check_baseline(const Baseline& baseline);
 
 }  // namespace gramloom

@@ -46,13 +46,11 @@ struct Comparison {
 
   void add(const std::string& job, std::string what, std::string was, std::string is,
            Verdict verdict) {
-    changes.push_back({job, std::move(what), std::move(was), std::move(is), verdict});
+    changes.push_back({verdict, job, std::move(what), std::move(was), std::move(is)});
   }
 };
 
-std::string text_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
+std::string text_of(const Json& json) { return to_text(json); }
 
 // Whether a setting that both runs know is another one now. A setting that only one of them knows
 // came or went with a version of the program: it may not change what the others make.
@@ -120,20 +118,23 @@ void compare_score(Comparison& c, const std::string& job, const Metric& metric, 
         change > 0 ? Verdict::worse : Verdict::better);
 }
 
+std::optional<double> score_of(const JobRecord& record, const Metric& metric) {
+  const auto found = record.metrics.find(std::string(metric.name));
+  return found == record.metrics.end() ? std::nullopt : found->second;
+}
+
 void compare_scores(Comparison& c, const std::string& job, const JobRecord& before,
                     const JobRecord& now) {
   if (!now.score_error.empty() && !before.metrics.empty())
     c.add(job, "scores", "there", now.score_error, Verdict::worse);
   if (now.metrics.empty() || before.metrics.empty()) return;
   for (const Metric& metric : metrics()) {
-    const auto was = before.metrics.find(metric.name);
-    const auto is = now.metrics.find(metric.name);
-    const bool before_known = was != before.metrics.end() && was->is_number();
-    const bool now_known = is != now.metrics.end() && is->is_number();
-    if (before_known && now_known)
-      compare_score(c, job, metric, was->get<double>(), is->get<double>());
-    else if (before_known)
-      c.add(job, std::string(metric.name), fmt::format("{:.4g}", was->get<double>()), "undefined",
+    const std::optional<double> was = score_of(before, metric);
+    const std::optional<double> is = score_of(now, metric);
+    if (was && is)
+      compare_score(c, job, metric, *was, *is);
+    else if (was)
+      c.add(job, std::string(metric.name), fmt::format("{:.4g}", *was), "undefined",
             Verdict::changed);
   }
 }

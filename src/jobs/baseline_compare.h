@@ -4,23 +4,9 @@
 #include <vector>
 
 #include "jobs/baseline.h"
-#include "runs/baseline_limits.h"
+#include "runs/comparison.h"
 
 namespace gramloom {
-
-enum class Verdict { worse, better, changed };
-template <>
-inline constexpr auto enum_names<Verdict> = std::to_array<std::string_view>({"worse", "better",
-                                                                             "changed"});
-
-/// One thing that is not as it was.
-struct Change {
-  std::string job;  // or exemplar/method, of the diversity
-  std::string what;
-  std::string before;
-  std::string now;
-  Verdict verdict = Verdict::changed;
-};
 
 /// What differs between two runs by more than `limits`, job by job:
 /// - a job that is gone, or no longer done, is worse; a new one has changed; one that is done now,
@@ -42,8 +28,8 @@ std::size_t count_worse(const std::vector<Change>& changes);
 std::string change_table(const std::vector<Change>& changes, const Baseline& before,
                          const Baseline& now);
 
-/// {"baseline": folder, "limits": {…}, "worse": 1, "changes": [{"job", "what", …}, …]}
-std::string change_json(const std::vector<Change>& changes, const Baseline& before,
-                        const BaselineLimits& limits);
+/// What baseline.json says of them.
+ComparisonRecord comparison_record(const std::vector<Change>& changes, const Baseline& before,
+                                   const BaselineLimits& limits);
 
 }  // namespace gramloom

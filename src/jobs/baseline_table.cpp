@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "io/field_values.h"
 #include "jobs/baseline_compare.h"
 #include "jobs/text_table.h"
 
@@ -25,20 +24,9 @@ std::string change_table(const std::vector<Change>& changes, const Baseline& bef
                      before.folder.string(), count_worse(changes), changes.size());
 }
 
-std::string change_json(const std::vector<Change>& changes, const Baseline& before,
-                        const BaselineLimits& limits) {
-  nlohmann::ordered_json json{{"baseline", before.folder.generic_string()}};
-  for_each_field<BaselineLimits>(
-      [&](const auto& field) { json["limits"][std::string(field.name)] = limits.*field.member; });
-  json["worse"] = count_worse(changes);
-  json["changes"] = Json::array();
-  for (const Change& change : changes)
-    json["changes"].push_back({{"verdict", to_word(change.verdict)},
-                               {"job", change.job},
-                               {"what", change.what},
-                               {"before", change.before},
-                               {"now", change.now}});
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+ComparisonRecord comparison_record(const std::vector<Change>& changes, const Baseline& before,
+                                   const BaselineLimits& limits) {
+  return {before.folder.generic_string(), limits, static_cast<int>(count_worse(changes)), changes};
 }
 
 }  // namespace gramloom

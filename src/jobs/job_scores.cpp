@@ -12,11 +12,13 @@ namespace gramloom {
 
 namespace {
 
-Json values_to_json(const Scores& scores) {
-  Json json = Json::object();
+using nlohmann::literals::operator""_json_pointer;
+
+std::map<std::string, std::optional<double>> values_of(const Scores& scores) {
+  std::map<std::string, std::optional<double>> values;
   for (const auto& [name, value] : scores.values)
-    json[std::string(name)] = std::isfinite(value) ? Json(value) : Json();
-  return json;
+    values[std::string(name)] = std::isfinite(value) ? std::optional(value) : std::nullopt;
+  return values;
 }
 
 // Puts the scores into the record and their picture on disk; throws what goes wrong.
@@ -25,11 +27,13 @@ void score_texture(Run& run, const PlannedJob& planned, const JobFiles& files, J
   if (!refusal.empty()) throw Error("{}", refusal);
   // The texture as others see it: with its file's rounding.
   const Image texture = read_image(files.folder / record.files.front()).image;
-  const Scores scores =
-      score(statistics_of(run, planned.job), texture, run.config.tile, shown_work(run));
+  ExemplarStatistics& exemplar = statistics_of(run, planned.job);
+  if (record.settings.value("/exemplar/hash"_json_pointer, "") != run.loaded_hashes.at(0))
+    throw Error("the exemplar has changed since the texture was made");
+  const Scores scores = score(exemplar, texture, run.config.tile, shown_work(run));
   write_image(files.copy_map, scores.copy_map, {});
   record.copy_map = files.copy_map.lexically_relative(run.options.output).generic_string();
-  record.metrics = values_to_json(scores);
+  record.metrics = values_of(scores);
 }
 
 }  // namespace
@@ -63,28 +67,25 @@ bool score_job(Run& run, const PlannedJob& planned, JobRecord& record) {
   return true;
 }
 
-JobGroup finished_jobs(const Run& run, const JobGroup& jobs) {
-  JobGroup finished;
+std::vector<NamedRecord> finished_jobs(const Run& run, const JobGroup& jobs) {
+  std::vector<NamedRecord> finished;
   for (const PlannedJob* planned : jobs) {
     const JobFiles files = job_files(run.options.output, planned->name);
-    if (is_finished(read_record(files.record), files.folder)) finished.push_back(planned);
+    auto record = find_record(files.record);
+    if (is_finished(record, files.folder)) finished.push_back({planned->name, std::move(*record)});
   }
   return finished;
 }
 
-double diversity_of(Run& run, const JobGroup& jobs) {
-  const Job& first = jobs.front()->job;
-  const int channels = run.plan.exemplars[*first.exemplar].files.front().channels;
+double diversity_of(Run& run, const Job& job, const std::vector<NamedRecord>& jobs) {
+  const int channels = run.plan.exemplars[*job.exemplar].files.front().channels;
   const Cost cost = estimate_diversity(run.config.size, channels, static_cast<int>(jobs.size()));
   const std::string refusal = diversity_refusal(cost, available_memory());
   if (!refusal.empty()) throw Error("{}", refusal);
   std::vector<Image> textures;
-  for (const PlannedJob* planned : jobs) {
-    const JobFiles files = job_files(run.options.output, planned->name);
-    const auto record = read_record(files.record);
-    if (!record) throw Error("{}: its record is gone", planned->name);
-    textures.push_back(read_image(files.folder / record->files.at(0)).image);
-  }
+  for (const auto& [name, record] : jobs)
+    textures.push_back(
+        read_image(job_files(run.options.output, name).folder / record.files.at(0)).image);
   return diversity(textures, shown_work(run));
 }
 

@@ -18,11 +18,11 @@ bool score_job(Run& run, const PlannedJob& planned, JobRecord& record);
 /// The jobs of one exemplar and method, a seed each.
 using JobGroup = std::vector<const PlannedJob*>;
 
-/// Those that are finished.
-JobGroup finished_jobs(const Run& run, const JobGroup& jobs);
+/// Those that are finished, as their records say.
+std::vector<NamedRecord> finished_jobs(const Run& run, const JobGroup& jobs);
 
-/// How unlike the textures of these finished jobs are: see metrics' diversity(). Throws Error for
+/// How unlike the textures of these finished jobs, of the exemplar of `job`, are: see metrics' diversity(). Throws Error for
 /// fewer than two, Interrupted when the user stops it.
-double diversity_of(Run& run, const JobGroup& jobs);
+double diversity_of(Run& run, const Job& job, const std::vector<NamedRecord>& jobs);
 
 }  // namespace gramloom

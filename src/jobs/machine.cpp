@@ -24,24 +24,23 @@ std::string labelled_line(const std::string& path, std::string_view label) {
 
 std::string_view version() { return GRAMLOOM_VERSION; }
 
-Json versions_to_json() {
-  Json versions{{"gramloom", version()}};
+Named<std::string> versions() {
+  Named<std::string> versions{{"gramloom", std::string(version())}};
   // "name version,name version", from CMake.
   std::string_view list = GRAMLOOM_LIBRARY_VERSIONS;
   while (!list.empty()) {
     const std::string_view one = list.substr(0, list.find(','));
     list.remove_prefix(std::min(list.size(), one.size() + 1));
     const std::size_t space = one.find(' ');
-    versions[std::string(one.substr(0, space))] = one.substr(space + 1);
+    versions.emplace_back(one.substr(0, space), one.substr(space + 1));
   }
   return versions;
 }
 
-Json machine_to_json() {
-  return {{"processor", labelled_line("/proc/cpuinfo", "model name")},
-          {"cores", std::thread::hardware_concurrency()},
-          {"threads", thread_count()},
-          {"memory", labelled_line("/proc/meminfo", "MemTotal")}};
+Machine machine() {
+  return {labelled_line("/proc/cpuinfo", "model name"),
+          static_cast<int>(std::thread::hardware_concurrency()), thread_count(),
+          labelled_line("/proc/meminfo", "MemTotal")};
 }
 
 }  // namespace gramloom

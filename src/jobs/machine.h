@@ -2,7 +2,8 @@
 
 #include <string_view>
 
-#include "jobs/settings.h"
+#include "io/json_fields.h"
+#include "runs/circumstances.h"
 
 namespace gramloom {
 
@@ -10,9 +11,9 @@ namespace gramloom {
 std::string_view version();
 
 /// The versions of the program and of the libraries that it was built with.
-Json versions_to_json();
+Named<std::string> versions();
 
-/// Processor, cores, threads in use, memory.
-Json machine_to_json();
+/// The one that the program runs on, and the threads in use.
+Machine machine();
 
 }  // namespace gramloom

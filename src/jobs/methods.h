@@ -40,6 +40,12 @@ concept HasPresets = requires(const Params& params) {
   with_preset(params.preset);
 };
 
+/// A method that may look up the description of a network by its name.
+template <class Params>
+concept HasNetwork = requires(const Params& params) {
+  network_file(params);
+};
+
 std::string_view kind_of(const Method& method);
 Abilities abilities_of(const Method& method);
 /// A method without this ability needs no exemplar, and takes none.

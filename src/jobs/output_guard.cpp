@@ -107,7 +107,7 @@ class Guard {
          name != names_.end() && name->starts_with(files.name); ++name) {
       const std::string rest = name->substr(files.name.size());
       if (!rest.starts_with('.') && !rest.starts_with('_')) continue;  // seed1 and seed10
-      if (!record) record = read_record(files.record);
+      if (!record) record = find_record(files.record);
       const bool listed = *record && contains((*record)->files, *name);
       const bool picture = is_picture(rest, is_map);
       if (!listed && !picture && !is_own_name(rest)) continue;  // it stays as it is
@@ -165,7 +165,7 @@ class Guard {
     std::error_code ignored;
     for (const auto& method : fs::directory_iterator(folder, ignored))
       for (const auto& entry : fs::directory_iterator(method.path(), ignored))
-        if (entry.path().extension() == ".json" && read_record(entry.path())) return true;
+        if (entry.path().extension() == ".json" && find_record(entry.path())) return true;
     return false;
   }
 

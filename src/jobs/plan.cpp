@@ -7,7 +7,6 @@
 #include "core/abilities.h"
 #include "jobs/pattern.h"
 #include "jobs/results.h"
-#include "jobs/settings.h"
 #include "metrics/scores.h"
 
 namespace gramloom {
@@ -31,8 +30,6 @@ void check_values(const ExemplarEntry& exemplar, const Image& joined) {
 ExemplarFacts look_at(const ExemplarEntry& exemplar) {
   ExemplarFacts facts;
   try {
-    facts.hashes.push_back(file_hash(exemplar.image));
-    for (const auto& [name, file] : exemplar.maps) facts.hashes.push_back(file_hash(file));
     LoadedExemplar loaded = load_exemplar(exemplar);
     facts.size = loaded.exemplar.image.size();
     facts.files = std::move(loaded.files);

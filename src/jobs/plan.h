@@ -34,7 +34,6 @@ bool job_matches(const std::string& pattern, const std::string& job);
 struct ExemplarFacts {
   Size size;  // after max_side
   std::vector<ExemplarFile> files;
-  std::vector<std::string> hashes;  // of each file
   std::string error;  // why it cannot be read, or taken by a method; its jobs fail with this
 };
 

@@ -3,8 +3,10 @@
 #include "core/hash.h"
 #include "io/text_file.h"
 #include "jobs/interruption.h"
+#include "jobs/machine.h"
 #include "jobs/memory.h"
 #include "jobs/results.h"
+#include "jobs/settings.h"
 #include "jobs/trace_log.h"
 #include "runs/job_files.h"
 
@@ -12,14 +14,33 @@ namespace gramloom {
 
 namespace {
 
-JobRecord new_record(const Run& run, const Job& job) {
+// The description of the network that the method looks at, if it does.
+std::optional<NetworkUsed> network_of(const Method& method) {
+  return std::visit(
+      []<class Params>(const Params& params) -> std::optional<NetworkUsed> {
+        if constexpr (HasNetwork<Params>) {
+          const std::filesystem::path file = network_file(params);
+          if (!file.empty()) return NetworkUsed{file.string(), read_text(file)};
+        }
+        return std::nullopt;
+      },
+      method);
+}
+
+JobRecord new_record(Run& run, const Job& job) {
+  const MethodEntry& method = run.config.methods[job.method];
   JobRecord record;
   record.exemplar = exemplar_name(run.config, job);
-  record.method = run.config.methods[job.method].name;
-  record.kind = kind_of(run.config.methods[job.method].method);
+  record.method = method.name;
+  record.kind = kind_of(method.method);
   record.seed = job.seed;
   record.size = run.config.size;
-  record.settings = job_settings(run.config, run.plan, job);
+  record.settings = job_settings(run.config, job, input_hashes(run.config, job, run.hashes));
+  record.machine = machine();
+  record.versions = versions();
+  record.config = run.config.file.string();
+  record.config_hash = hash_of(run.config.text);
+  record.set = run.config.overrides;
   record.error = "stopped before it was finished";
   return record;
 }
@@ -30,34 +51,57 @@ void refuse_if_impossible(const Run& run, const PlannedJob& planned) {
   if (!refusal.empty()) throw Error("{}", refusal);
 }
 
+// A job under way: what it reads and where its results go.
+struct Work {
+  const PlannedJob& planned;
+  const Method& method;
+  const JobFiles& files;
+  const Request& request;
+  Named<std::string> method_files;  // by their content when the work began
+  std::string identity;             // of all that the result depends on
+};
+
 // The texture, and whether the user stopped the work before it was finished.
 struct Made {
   Texture texture;
   bool stopped = false;
 };
 
-Made make_texture(Run& run, const PlannedJob& planned, const JobFiles& files, TraceLog& trace) {
-  const Job& job = planned.job;
+// A method reads its files before its first report: what was hashed before is what it has read.
+void check_unchanged(Run& run, const Work& work) {
+  if (method_hashes(work.method, run.hashes) != work.method_files)
+    throw Error("a file of the method '{}' changed while it was read",
+                run.config.methods[work.planned.job.method].name);
+}
+
+Made make_texture(Run& run, const Work& work, TraceLog& trace) {
   Made made;
+  bool checked = false;
   Control control;
-  control.checkpoint = files.checkpoint;
+  control.checkpoint = work.files.checkpoint;
+  control.identity = work.identity;
   control.progress = [&](const Progress& progress) {
+    if (!std::exchange(checked, true)) check_unchanged(run, work);
     trace.add(progress);
     run.bar.update(progress);
+    if (run.keep_up) run.keep_up();
     made.stopped = run.stopped();
     return !made.stopped;
   };
   std::optional<NothingToKeep> scope;
-  if (!std::holds_alternative<NeuralParams>(run.config.methods[job.method].method)) scope.emplace();
-  made.texture = run_method(run.config.methods[job.method].method, request_of(run, job), control);
+  if (!std::holds_alternative<NeuralParams>(work.method)) scope.emplace();
+  made.texture = run_method(work.method, work.request, control);
+  if (!checked) check_unchanged(run, work);
   return made;
 }
 
-void write_results(const Run& run, const JobFiles& files, Texture joined, const TraceLog& trace,
+void write_results(const Run& run, const Work& work, Texture joined, const TraceLog& trace,
                    JobRecord& record) {
+  const JobFiles& files = work.files;
   const Texture texture = split_layers(std::move(joined), run.files);
   record.files = write_texture(files.folder, files.name, texture,
                                output_formats(run.config, run.files, texture), record.settings);
+  record.texture = file_hash(files.folder / record.files.front());
   record.loss = summarise(trace.trace());
   if (record.loss)
     write_text(files.trace, to_csv(trace.trace()));
@@ -67,17 +111,30 @@ void write_results(const Run& run, const JobFiles& files, Texture joined, const 
   write_record(files.record, record);
 }
 
+// Reads what the job needs, and says so in the record.
+Work begin_work(Run& run, const PlannedJob& planned, const JobFiles& files, JobRecord& record) {
+  const Job& job = planned.job;
+  const Method& method = run.config.methods[job.method].method;
+  const Request& request = request_of(run, job);
+  InputHashes inputs{run.loaded_hashes, method_hashes(method, run.hashes)};
+  record.settings = job_settings(run.config, job, inputs);
+  record.network = network_of(method);
+  const std::string identity = hash_of(to_text(record.settings) + std::string(version()));
+  return {planned, method, files, request, std::move(inputs.method), identity};
+}
+
 // Does the job and writes its files; throws what goes wrong.
 void do_job(Run& run, const PlannedJob& planned, const JobFiles& files, bool keep_old,
             JobRecord& record) {
   refuse_if_impossible(run, planned);
-  TraceLog trace(files.checkpoint_trace, hash_of(record.settings.dump()));
+  reset_peak_memory();
+  const Work work = begin_work(run, planned, files, record);
+  TraceLog trace(files.checkpoint_trace, work.identity);
   if (!run.options.resume || !trace.continues() || !exists(files.checkpoint)) {
     trace.restart();
     remove_file(files.checkpoint);
   }
-  reset_peak_memory();
-  Made made = make_texture(run, planned, files, trace);
+  Made made = make_texture(run, work, trace);
   record.seconds = trace.seconds();
   record.peak_memory_mb = peak_memory() / 1e6;
   if (made.stopped && keep_old) return;
@@ -85,29 +142,35 @@ void do_job(Run& run, const PlannedJob& planned, const JobFiles& files, bool kee
     record.status = Status::done;
     record.error.clear();
   }
-  write_results(run, files, std::move(made.texture), trace, record);
+  write_results(run, work, std::move(made.texture), trace, record);
   if (!made.stopped) remove_unfinished_state(files);
 }
 
 }  // namespace
 
 const Request& request_of(Run& run, const Job& job) {
-  if (run.loaded != job.exemplar) {
-    const NothingToKeep scope;
-    run.loaded.reset();
-    run.request.exemplars.clear();
-    run.files.clear();
-    run.statistics.reset();
-    if (job.exemplar) {
-      LoadedExemplar loaded = load_exemplar(run.config.exemplars[*job.exemplar]);
-      run.request.exemplars.push_back(std::move(loaded.exemplar));
-      run.files = std::move(loaded.files);
-    }
-    run.loaded = job.exemplar;
-  }
   run.request.target = {run.config.size, run.config.tile};
   // The seed alone: a texture does not change when its exemplar or method is given another name.
   run.request.random = Random(static_cast<std::uint64_t>(job.seed));
+  std::vector<std::string> hashes;
+  if (job.exemplar) hashes = exemplar_hashes(run.config.exemplars[*job.exemplar], run.hashes);
+  if (run.loaded == job.exemplar && run.loaded_hashes == hashes) return run.request;
+  const NothingToKeep scope;
+  run.loaded.reset();
+  run.request.exemplars.clear();
+  run.files.clear();
+  run.statistics.reset();
+  if (job.exemplar) {
+    const ExemplarEntry& entry = run.config.exemplars[*job.exemplar];
+    LoadedExemplar loaded = load_exemplar(entry);
+    if (exemplar_hashes(entry, run.hashes) != hashes)
+      throw Error("{}: the exemplar or one of its maps changed while it was read",
+                  entry.image.string());
+    run.request.exemplars.push_back(std::move(loaded.exemplar));
+    run.files = std::move(loaded.files);
+  }
+  run.loaded = job.exemplar;
+  run.loaded_hashes = std::move(hashes);
   return run.request;
 }
 
@@ -117,10 +180,34 @@ ExemplarStatistics& statistics_of(Run& run, const Job& job) {
   return *run.statistics;
 }
 
+std::string reason_to_run(Run& run, const PlannedJob& planned) {
+  const JobFiles files = job_files(run.options.output, planned.name);
+  std::error_code ignored;
+  if (!std::filesystem::exists(files.record, ignored)) return "not done before";
+  std::optional<JobRecord> record;
+  try {
+    record = read_record(files.record);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  if (record->status != Status::done) return fmt::format("was {} before", to_word(record->status));
+  if (!is_finished(record, files.folder)) return "its picture is gone";
+  // Records of version 1 don't know it.
+  for (const auto& [name, made_by] : record->versions)
+    if (name == "gramloom" && made_by != version())
+      return fmt::format("made by gramloom {}, this is {}", made_by, version());
+  const InputHashes inputs = input_hashes(run.config, planned.job, run.hashes);
+  const Json changes =
+      Json::diff(record->settings, job_settings(run.config, planned.job, inputs));
+  if (changes.empty()) return "";
+  return fmt::format("{} changed since", changes.front().at("path").get<std::string>().substr(1));
+}
+
 Control shown_work(Run& run) {
   Control control;
   control.progress = [&run](const Progress& progress) {
     run.bar.update(progress);
+    if (run.keep_up) run.keep_up();
     return !run.stopped();
   };
   return control;
@@ -138,7 +225,7 @@ JobRecord run_job(Run& run, const PlannedJob& planned) {
       // The disk may be what failed; the terminal says so.
     }
   };
-  const std::optional<JobRecord> before = read_record(files.record);
+  const std::optional<JobRecord> before = find_record(files.record);
   const bool keep_old = is_finished(before, files.folder);
   try {
     create_folder(files.folder);

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 
 #include "core/progress.h"
 #include "jobs/exemplar.h"
+#include "jobs/inputs.h"
 #include "jobs/plan.h"
 #include "jobs/runner.h"
 #include "metrics/exemplar_statistics.h"
@@ -19,19 +21,29 @@ struct Run {
   const RunOptions& options;
   const Plan& plan;
   ProgressBar& bar;
-  std::optional<std::size_t> loaded = {};
+  std::function<void()> keep_up = {};      // to be called now and then while a job is under way
+  FileHashes hashes = {};                  // of the files that the jobs read
+  std::optional<std::size_t> loaded = {};  // which exemplar
+  std::vector<std::string> loaded_hashes = {};  // of its files when they were read
   Request request = {};
-  std::vector<ExemplarFile> files = {};                // of that exemplar
+  std::vector<ExemplarFile> files = {};  // of that exemplar
   std::optional<ExemplarStatistics> statistics = {};  // of its picture, for the scores
 
   bool stopped() const { return options.stop && options.stop(); }
 };
 
-/// What the job asks of its method. Throws Error for an exemplar that cannot be read.
+/// What the job asks of its method; its exemplar is read again when its files have changed. Throws
+/// Error for an exemplar that cannot be read.
 const Request& request_of(Run& run, const Job& job);
 
 /// The exemplar's side of the scores, kept as long as the exemplar. Throws Error.
 ExemplarStatistics& statistics_of(Run& run, const Job& job);
+
+/// Why --resume has to do a job (again); "" when it is finished and what it depended on is as it
+/// was: its settings with the content of all files, and the version of gramloom. Other threads,
+/// another machine and other versions of libraries change at most the last bits of what neural
+/// methods make: they stand in the record and are no reason.
+std::string reason_to_run(Run& run, const PlannedJob& planned);
 
 /// Shows the progress of work that leaves nothing to keep when the user stops it.
 Control shown_work(Run& run);

@@ -7,7 +7,7 @@
 #include "jobs/job_scores.h"
 #include "jobs/output_guard.h"
 #include "jobs/results.h"
-#include "jobs/run_file.h"
+#include "jobs/run_log.h"
 #include "neural/blas_speed.h"
 #include "runs/job_files.h"
 
@@ -20,14 +20,12 @@ namespace fs = std::filesystem;
 // What --resume finds finished; says why when it finds nothing.
 std::optional<JobRecord> finished_before(const Run& run, const PlannedJob& planned) {
   const JobFiles files = job_files(run.options.output, planned.name);
-  auto before = read_record(files.record);
-  const std::string reason =
-      reason_to_run(before, job_settings(run.config, run.plan, planned.job), files.folder);
+  const std::string reason = reason_to_run(run, planned);
   if (reason.empty()) {
     remove_unfinished_state(files);
-    return before;
+    return find_record(files.record);
   }
-  if (before) run.bar.message(fmt::format("{}: again, {}", planned.name, reason));
+  if (fs::exists(files.record)) run.bar.message(fmt::format("{}: again, {}", planned.name, reason));
   return std::nullopt;
 }
 
@@ -39,7 +37,7 @@ Plan look_ahead(const Config& config, const RunOptions& options) {
 // A folder that can be written and is ours alone, with run.json in it, or a ConfigError.
 struct Output {
   FolderLock lock;
-  RunFile run_file;
+  RunLog log;
 };
 Output prepare_output(const Config& config, const Plan& plan, const RunOptions& options) {
   const fs::path& output = options.output;
@@ -52,7 +50,7 @@ Output prepare_output(const Config& config, const Plan& plan, const RunOptions& 
     check_output(config, plan, output, inputs);
     for (const auto* stem : {"run", "scores", "index", "baseline"})
       remove_stale_temporaries(output, stem);
-    return {std::move(lock), RunFile(config, plan, options)};
+    return {std::move(lock), RunLog(config, plan, options)};
   } catch (const Error& error) {
     throw ConfigError("--output {}: {}", output.string(), error.what());
   }
@@ -109,7 +107,7 @@ void or_complain(const Run& run, const std::function<void()>& write) {
   }
 }
 
-void add_scores(Run& run, const PlannedJob& planned, JobRecord& record, RunFile& run_file,
+void add_scores(Run& run, const PlannedJob& planned, JobRecord& record, RunLog& log,
                 RunSummary& summary) {
   run.bar.start(planned.name + ", scores", 1, 1);
   if (run.stopped() || !score_job(run, planned, record)) {
@@ -118,7 +116,8 @@ void add_scores(Run& run, const PlannedJob& planned, JobRecord& record, RunFile&
   }
   if (!record.score_error.empty())
     run.bar.complaint(fmt::format("{}: not scored: {}", planned.name, record.score_error));
-  or_complain(run, [&] { run_file.set(planned.name, record); });
+  log.set(planned.name, record);
+  or_complain(run, [&] { log.keep_up(); });
 }
 
 // The exemplar lies beside its results, so that the folder tells the whole story wherever it goes.
@@ -135,22 +134,17 @@ void keep_exemplar(Run& run, const Job& job, std::optional<std::size_t>& kept) {
 }
 
 // Does a job, or finds it finished; run.json follows.
-void do_job(Run& run, const PlannedJob& planned, RunFile& run_file, RunSummary& summary) {
+void do_job(Run& run, const PlannedJob& planned, RunLog& log, RunSummary& summary) {
   std::optional<JobRecord> record;
   if (run.options.resume) record = finished_before(run, planned);
   const bool before = record.has_value();
-  if (!before) {
-    or_complain(run, [&] {
-      run_file.forget_diversity(exemplar_name(run.config, planned.job),
-                                run.config.methods[planned.job.method].name);
-    });
-    record = run_job(run, planned);
-  }
+  if (!before) record = run_job(run, planned);
   count_outcome(summary, record->status, before);
   const std::string text = outcome(planned, *record, before);
   record->status == Status::failed ? run.bar.complaint(text) : run.bar.message(text);
-  or_complain(run, [&] { run_file.set(planned.name, *record); });
-  if (lacks_scores(run, planned, *record)) add_scores(run, planned, *record, run_file, summary);
+  log.set(planned.name, *record);
+  or_complain(run, [&] { log.keep_up(); });
+  if (lacks_scores(run, planned, *record)) add_scores(run, planned, *record, log, summary);
 }
 
 // The jobs of each exemplar and method, as they follow each other in the plan.
@@ -167,21 +161,21 @@ std::vector<JobGroup> groups_of(const Plan& plan) {
 }
 
 // How unlike the finished textures of a group are, unless that is known.
-void add_diversity(Run& run, const JobGroup& group, RunFile& run_file, RunSummary& summary) {
+void add_diversity(Run& run, const JobGroup& group, RunLog& log, RunSummary& summary) {
   const Job& first = group.front()->job;
   const bool selected = std::any_of(group.begin(), group.end(),
                                     [](const auto* planned) { return planned->selected; });
   if (!run.config.scores || !first.exemplar || !selected) return;
-  const JobGroup finished = finished_jobs(run, group);
-  SeedDiversity diversity{
-      exemplar_name(run.config, first), run.config.methods[first.method].name, {}, 0};
-  for (const PlannedJob* planned : finished) diversity.seeds.push_back(planned->job.seed);
-  if (finished.size() < 2 || run_file.knows(diversity)) return;
+  const std::vector<NamedRecord> finished = finished_jobs(run, group);
+  SeedDiversity diversity = diversity_of_records(exemplar_name(run.config, first),
+                                                 run.config.methods[first.method].name, finished);
+  if (finished.size() < 2 || log.knows(diversity)) return;
   const NothingToKeep scope;
   try {
     run.bar.start(job_folder(run.config, first) + " diversity", 1, 1);
-    diversity.value = diversity_of(run, finished);
-    run_file.set(diversity);
+    diversity.value = diversity_of(run, first, finished);
+    log.set(diversity);
+    log.keep_up();
   } catch (const Interrupted&) {
     summary.unscored = true;
   } catch (const std::exception& error) {
@@ -196,6 +190,13 @@ RunSummary run(const Config& config, const RunOptions& options, ProgressBar& bar
   const Plan plan = look_ahead(config, options);
   Output output = prepare_output(config, plan, options);
   Run run{config, options, plan, bar};
+  run.keep_up = [&] {
+    try {
+      output.log.keep_up();
+    } catch (const Error&) {
+      // Said when the job has ended.
+    }
+  };
   const auto count = static_cast<std::size_t>(
       std::count_if(plan.jobs.begin(), plan.jobs.end(), [](const auto& j) { return j.selected; }));
   warn_of_slow_blas(run);
@@ -212,10 +213,12 @@ RunSummary run(const Config& config, const RunOptions& options, ProgressBar& bar
       }
       bar.start(planned->name, number, count);
       keep_exemplar(run, planned->job, kept);
-      do_job(run, *planned, output.run_file, summary);
+      do_job(run, *planned, output.log, summary);
     }
-    if (!run.stopped()) add_diversity(run, group, output.run_file, summary);
+    if (!run.stopped()) add_diversity(run, group, output.log, summary);
   }
+  or_complain(run, [&] { output.log.finish(); });
+  summary.writes = output.log.writes();
   return summary;
 }
 

@@ -29,11 +29,13 @@ struct RunSummary {
   int interrupted = 0;
   int left = 0;
   bool unscored = false;  // the user stopped the scoring of a texture
+  int writes = 0;         // of run.json and scores.csv
 };
 
 /// Does the jobs of a config one after another and leaves on disk, in `output`:
 ///   run.json                         versions, machine, settings, every job's status, diversity
-///   scores.csv                       a line a job: time, memory, scores
+///   scores.csv                       a line a job: time, memory, scores; both are written at the
+///                                    start, at most once a second, and at the end
 ///   <exemplar>/exemplar.png          the exemplar as the methods saw it (.exr, .tif)
 ///   <exemplar>/<method>/seed<N>.png  the texture (.exr, .tif), its maps as seed<N>_<map>.png
 ///   <exemplar>/<method>/seed<N>.copy_map.png  where each pixel came from (metrics/scores.h)

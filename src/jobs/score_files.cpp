@@ -1,8 +1,10 @@
 #include "jobs/score_files.h"
 
-#include <nlohmann/json.hpp>
+#include <algorithm>
 
 #include "io/image_file.h"
+#include "io/json_text.h"
+#include "jobs/progress_bar.h"
 #include "jobs/text_table.h"
 #include "metrics/controls.h"
 #include "metrics/exemplar_statistics.h"
@@ -42,18 +44,30 @@ std::vector<ScoredImage> score_files(const std::filesystem::path& exemplar,
   ExemplarStatistics own(read_image(exemplar).image);
   std::vector<ScoredImage> scored;
   for (const auto& name : images) {
-    const Image image = read_image(name).image;
-    if (image.channels != own.exemplar().channels)
-      throw Error("{}: has {} channels, the exemplar {} has {}", name, image.channels,
-                  exemplar.string(), own.exemplar().channels);
-    scored.push_back({name, score(own, image, tile, control)});
+    try {
+      const Image image = read_image(name).image;
+      if (image.channels != own.exemplar().channels)
+        throw Error("{}: has {} channels, the exemplar {} has {}", name, image.channels,
+                    exemplar.string(), own.exemplar().channels);
+      scored.push_back({name, score(own, image, tile, control)});
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const Error& error) {
+      const std::string line = first_line(error.what());
+      scored.push_back(
+          {name, {}, line.starts_with(name) ? line : fmt::format("{}: {}", name, line)});
+    }
   }
   if (controls)
     for (auto& one : score_controls(own, control)) scored.push_back(std::move(one));
   return scored;
 }
 
-std::string score_table(const std::vector<ScoredImage>& scored) {
+std::string score_table(const std::vector<ScoredImage>& all) {
+  std::vector<ScoredImage> scored;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(scored),
+               [](const auto& one) { return one.error.empty(); });
+  if (scored.empty()) return "";
   std::vector<Row> rows{{"score", "better"}};
   for (const auto& one : scored) rows[0].push_back(one.name);
   for (const Metric& metric : metrics()) {
@@ -66,10 +80,10 @@ std::string score_table(const std::vector<ScoredImage>& scored) {
 }
 
 std::string score_json(const std::vector<ScoredImage>& scored) {
-  nlohmann::ordered_json json;
+  Json json = Json::object();
   for (const auto& one : scored)
     for (const auto& [name, value] : one.scores.values) json[one.name][std::string(name)] = value;
-  return json.dump(2) + "\n";
+  return to_text(json, 2) + "\n";
 }
 
 }  // namespace gramloom

@@ -3,22 +3,29 @@
 #include <filesystem>
 #include <string>
 
+#include "io/json_text.h"
+#include "jobs/inputs.h"
 #include "jobs/plan.h"
-#include "runs/json.h"
 
 namespace gramloom {
 
 /// A method's kind and every parameter, defaults included; paths relative to `folder`.
 Json method_to_json(const Method& method, const std::filesystem::path& folder);
 
+/// What the files that a job reads hold.
+struct InputHashes {
+  std::vector<std::string> exemplar;  // the picture's, then its maps'
+  Named<std::string> method;          // by the names of the parameters
+
+  friend bool operator==(const InputHashes&, const InputHashes&) = default;
+};
+InputHashes input_hashes(const Config& config, const Job& job, FileHashes& hashes);
+
 /// Everything that a job's result depends on, and nothing else: two jobs with equal settings have
 /// equal results. Files count by their content.
-Json job_settings(const Config& config, const Plan& plan, const Job& job);
+Json job_settings(const Config& config, const Job& job, const InputHashes& inputs);
 
 /// The whole config with every default, for run.json.
 Json config_to_json(const Config& config);
-
-/// The hash of a file's bytes (core/hash.h). Throws Error when the file cannot be read.
-std::string file_hash(const std::filesystem::path& path);
 
 }  // namespace gramloom

@@ -58,8 +58,9 @@ void TraceLog::add(const Progress& progress) {
 }
 
 double TraceLog::seconds() const {
-  return seconds_before_ +
-         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const double now =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  return std::round((seconds_before_ + now) * 1e6) / 1e6;
 }
 
 }  // namespace gramloom

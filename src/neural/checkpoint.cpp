@@ -46,7 +46,7 @@ void for_each_kept(const Map& map, F&& f) {
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
-  std::map<std::string, std::string> numbers{{"fingerprint", checkpoint.fingerprint}};
+  std::map<std::string, std::string> numbers{{"identity", checkpoint.identity}};
   for_each_field<Checkpoint>([&](const auto& field) {
     numbers[std::string(field.name)] = to_text(checkpoint.*field.member);
   });
@@ -59,12 +59,12 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
 }
 
 std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& file,
-                                          const std::string& fingerprint) try {
+                                          const std::string& identity) try {
   if (file.empty() || !std::filesystem::exists(file)) return {};
   const auto numbers = read_metadata(file);
   Checkpoint checkpoint;
-  checkpoint.fingerprint = numbers.at("fingerprint");
-  if (checkpoint.fingerprint != fingerprint) return {};
+  checkpoint.identity = numbers.at("identity");
+  if (checkpoint.identity != identity) return {};
   for_each_field<Checkpoint>([&](const auto& field) {
     using T = typename std::decay_t<decltype(field)>::value_type;
     checkpoint.*field.member = to_number<T>(numbers.at(std::string(field.name)));

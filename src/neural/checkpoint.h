@@ -12,7 +12,7 @@ namespace gramloom::neural {
 /// How far an unfinished synthesis is: enough to go on to the same bytes as if it had not stopped.
 /// It lies in one safetensors file: pictures as tensors, numbers as texts of its metadata, exact.
 struct Checkpoint {
-  std::string fingerprint;  // of everything that the result depends on
+  std::string identity;  // whose it is: core/progress.h
   int level = 0;
   int first_level = 0;
   std::int64_t iteration = 0;
@@ -37,9 +37,9 @@ struct Checkpoint {
 /// Complete or not at all. Throws Error.
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
-/// Nothing when there is no file, or it belongs to another synthesis, or is damaged: then the work
-/// begins anew.
+/// Nothing when there is no file, or it has another identity, or is damaged: then the work begins
+/// anew.
 std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& file,
-                                          const std::string& fingerprint);
+                                          const std::string& identity);
 
 }  // namespace gramloom::neural

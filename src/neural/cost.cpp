@@ -54,8 +54,12 @@ double seconds_of_step(const NeuralParams& params, double evaluation, double pic
 }
 
 // All that the synthesis itself would refuse once it has begun.
-void check_possible(const NeuralParams& params, Size exemplar, int channels, const Target& target) {
+void check_possible(const NeuralParams& params, const RequestSize& request) {
   check_settings(params);
+  check_request<NeuralParams>(request);
+  const Size exemplar = request.exemplars.front().size;
+  const int channels = request.exemplars.front().channels;
+  const Target target{request.size, request.tile};
   if (params.sliced_weight > 0)
     check_patches_fit(params.patch_sizes, exemplar, target.size, target.tile);
   if (!params.start.empty()) read_start(params, channels);
@@ -74,11 +78,10 @@ void check_possible(const NeuralParams& params, Size exemplar, int channels, con
 }  // namespace
 
 Cost estimate(const NeuralParams& params, const RequestSize& request) {
-  check_request<NeuralParams>(request);
+  check_possible(params, request);
   const Size exemplar = request.exemplars.front().size;
   const int channels = request.exemplars.front().channels;
   const Target target{request.size, request.tile};
-  check_possible(params, exemplar, channels, target);
   const LossSize size = loss_size(params, exemplar, canvas_size(params, target), channels);
   const LossCost loss = loss_cost(params, size);
   const bool remembers = std::find(params.optimizer.begin(), params.optimizer.end(),

@@ -170,4 +170,15 @@ struct NeuralParams : LossParams {
 /// The settings of that preset.
 NeuralParams with_preset(Preset preset);
 
+/// Whether any term looks at a network's layers.
+inline bool needs_network(const NeuralParams& params) {
+  bool needed = false;
+  for_each_term(params, [&]<class Term>(const Term&) { needed |= LooksAtNetwork<Term>; });
+  return needed;
+}
+
+/// The file that describes the network, or "" when no term looks at one. Throws ConfigError when
+/// there is none of that name.
+std::filesystem::path network_file(const NeuralParams& params);
+
 }  // namespace gramloom

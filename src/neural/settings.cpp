@@ -6,10 +6,8 @@
 #include <numeric>
 #include <set>
 
-#include "core/hash.h"
 #include "io/field_values.h"
 #include "io/image_file.h"
-#include "io/text_file.h"
 
 namespace gramloom::neural {
 
@@ -209,20 +207,6 @@ std::map<std::string, TensorData> read_weights(const NetworkDescription& descrip
     check_tensor(file, tensors, bias_name(shape.layer), {shape.outputs});
   }
   return tensors;
-}
-
-std::string fingerprint(const NeuralParams& params, const Image& exemplar, const Target& target,
-                        Random random) {
-  Fnv1a hash;
-  for_each_field<NeuralParams>([&](const auto& field) {
-    hash.add(fmt::format("{}={};", field.name, value_to_text(params.*field.member)));
-  });
-  hash.add(fmt::format("{}×{} {} seed {} exemplar {}×{}×{};", target.size.width, target.size.height,
-                       to_word(target.tile), random.seed(), exemplar.width, exemplar.height,
-                       exemplar.channels));
-  if (needs_network(params)) hash.add(read_text(find_network(params.network)));
-  hash.add(exemplar.pixels.data(), exemplar.pixels.size() * sizeof(float));
-  return hash.text();
 }
 
 }  // namespace gramloom::neural

@@ -12,13 +12,6 @@
 
 namespace gramloom::neural {
 
-/// Whether any term looks at a network's layers.
-inline bool needs_network(const NeuralParams& params) {
-  bool needed = false;
-  for_each_term(params, [&]<class Term>(const Term&) { needed |= LooksAtNetwork<Term>; });
-  return needed;
-}
-
 /// The value of a list for a level, 0 being the finest: the last one serves all coarser levels.
 template <class T>
 const T& at_level(const std::vector<T>& list, int level) {
@@ -65,10 +58,5 @@ std::map<std::string, TensorData> read_weights(const NetworkDescription& descrip
 /// torchvision's names of a layer's tensors.
 std::string weight_name(std::size_t layer);
 std::string bias_name(std::size_t layer);
-
-/// A hash of what the result depends on, for checkpoints; of the weights and the image to start
-/// from it knows the names, not the content.
-std::string fingerprint(const NeuralParams& params, const Image& exemplar, const Target& target,
-                        Random random);
 
 }  // namespace gramloom::neural

@@ -89,11 +89,11 @@ class Synthesis {
       network_ = make_network(params, description_, exemplar_);
       matched_.emplace(*network_, description_, layers_);
     }
-    state_.fingerprint = fingerprint(params, exemplar, target, random);
+    state_.identity = control.identity;
   }
 
   at::Tensor run() {
-    if (auto saved = read_checkpoint(control_.checkpoint, state_.fingerprint)) {
+    if (auto saved = read_checkpoint(control_.checkpoint, control_.identity)) {
       state_ = std::move(*saved);
       seconds_before_ = state_.seconds;
     } else {

@@ -26,6 +26,8 @@ function toToml(value) {
   if (Array.isArray(value)) return `[${value.map(toToml).join(', ')}]`;
   if (typeof value === 'object')
     return `{ ${Object.entries(value).map(([key, own]) => `${toToml(key)} = ${toToml(own)}`).join(', ')} }`;
+  // As an integer it would be beyond TOML's.
+  if (Number.isInteger(value) && !Number.isSafeInteger(value)) return value.toExponential();
   if (typeof value === 'string') return JSON.stringify(value).replaceAll('\x7f', '\\u007F');
   return String(value);
 }
@@ -46,12 +48,13 @@ function configOf(job) {
     '', '[[method]]', `name = ${toToml(job.method)}`, ...lines(method)].join('\n') + '\n';
 }
 
-/** The command that makes this picture again. Only neural results depend on the threads. */
+/** The command that makes this picture again, as its own record has it: another run may have had
+ *  other options. Only neural results depend on the threads. */
 function commandOf(job) {
-  const { command = [], config = 'CONFIG', set = [], machine = {} } = data.run;
-  return [command[0] ?? 'gramloom', 'run', config, '--only', job.name,
+  const { config, set, threads } = job.origin;
+  return [data.run.command[0] ?? 'gramloom', 'run', config || 'CONFIG', '--only', job.name,
     ...set.flatMap((option) => ['--set', option]),
-    ...(job.kind === 'neural' && machine.threads ? ['--threads', String(machine.threads)] : [])]
+    ...(job.kind === 'neural' && threads > 0 ? ['--threads', String(threads)] : [])]
     .map(quoted).join(' ');
 }
 
@@ -67,6 +70,7 @@ function drawDetails(subject) {
     el('p', {}, el('span', { class: job.status === 'done' ? '' : 'bad' }, job.status),
       job.seconds > 0 && ` in ${duration(job.seconds)} s`,
       job.peak_memory_mb > 0 && `, ${Math.round(job.peak_memory_mb)} MB`,
+      job.kind === 'neural' && job.machine.threads > 0 && `, ${plural(job.machine.threads, 'thread')}`,
       `. ${subject.width} × ${subject.height} pixels.`),
     job.error && el('p', { class: 'bad error' }, job.error),
     job.score_error && el('p', { class: 'bad error' }, `not scored: ${job.score_error}`),
@@ -77,6 +81,8 @@ function drawDetails(subject) {
     el('h3', {}, 'Make it again'),
     el('div', { class: 'code' }, el('code', { id: 'command' }, command),
       copyButton(() => command, 'Copy the command')),
+    job.origin.edited && el('p', { class: 'small' },
+      'The config has changed since: these settings are those of the picture.'),
     job.settings && [el('h3', {}, 'Its settings, as a config'),
       el('div', { class: 'code' }, el('pre', { id: 'settings', tabindex: '0' }, settings),
         copyButton(() => settings, 'Copy the settings')),

@@ -4,6 +4,8 @@
 #include <map>
 
 #include "core/error.h"
+#include "core/hash.h"
+#include "io/json_fields.h"
 #include "metrics/scores.h"
 #include "report/preview.h"
 
@@ -12,7 +14,6 @@ namespace gramloom {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::literals::operator""_json_pointer;
 
 constexpr std::size_t trace_points = 300;
 
@@ -41,13 +42,6 @@ Json metrics_to_json() {
   return list;
 }
 
-Json part(const Json& object, std::initializer_list<const char*> keys) {
-  Json chosen = Json::object();
-  for (const auto* key : keys)
-    if (object.contains(key)) chosen[key] = object[key];
-  return chosen;
-}
-
 // The exemplar as the methods saw it: the run keeps it as exemplar.<its format> and its maps as
 // exemplar_<map>.<its format>: "exemplar", "exemplar_height".
 std::string exemplar_file(const fs::path& folder, const std::string& name,
@@ -61,8 +55,9 @@ std::string exemplar_file(const fs::path& folder, const std::string& name,
 }
 
 // What the config says of the exemplar; its paths are relative to the config.
-Json exemplar_in_config(const Json& run, const std::string& name) {
-  for (const auto& exemplar : run.value("/settings/exemplar"_json_pointer, Json::array()))
+Json exemplar_in_config(const RunRecord& run, const std::string& name) {
+  if (!run.settings.is_object()) return Json::object();
+  for (const auto& exemplar : run.settings.value("exemplar", Json::array()))
     if (exemplar.value("name", "") == name) return exemplar;
   return Json::object();
 }
@@ -115,9 +110,8 @@ std::string label_of(const std::string& job, const std::string& file) {
 
 Json pictures_of(const RunOnDisk& run, const JobOnDisk& job, const Source& source, Json& trouble) {
   Json pictures = Json::array();
-  for (const auto& file : job.record.value("files", Json::array())) {
+  for (const std::string& name : job.record.files) {
     try {
-      const std::string name = file.get<std::string>();
       if (fs::path(name).filename() != name) throw Error("{}: {} is elsewhere", job.name, name);
       const std::string path = (fs::path(job.name).parent_path() / name).generic_string();
       const std::string label = label_of(job.name, name);
@@ -131,29 +125,61 @@ Json pictures_of(const RunOnDisk& run, const JobOnDisk& job, const Source& sourc
 }
 
 // The file that a record names, if it lies in the folder.
-Json file_in_folder(const RunOnDisk& run, const Json& name) {
-  if (!name.is_string()) return nullptr;
-  const fs::path path = fs::path(name.get<std::string>()).lexically_normal();
+Json file_in_folder(const RunOnDisk& run, const std::string& name) {
+  const fs::path path = fs::path(name).lexically_normal();
   std::error_code ignored;
   const bool inside = !path.empty() && path.is_relative() && *path.begin() != "..";
   return inside && fs::is_regular_file(run.folder / path, ignored) ? Json(path.generic_string())
                                                                    : Json(nullptr);
 }
 
+// What the command that makes a result again needs to know. A record of version 1 does not: there
+// what the run says holds.
+Json origin_of(const RunOnDisk& run, const JobRecord& record) {
+  const bool known = !record.config.empty();
+  const RunRecord& all = run.run;
+  const bool edited = known && record.config_hash != hash_of(all.config_text);
+  return {{"config", known ? record.config : all.config},
+          {"set", known ? record.set : all.set},
+          {"threads", known ? record.machine.threads : all.machine.threads},
+          {"edited", edited}};
+}
+
 Json job_to_json(const RunOnDisk& run, const JobOnDisk& job, const Source& source, Json& trouble) {
-  Json shown{{"name", job.name}};
-  shown.update(
-      part(job.record, {"exemplar", "method", "kind", "seed", "width", "height", "status", "error",
-                        "seconds", "peak_memory_mb", "settings", "metrics", "score_error"}));
-  shown["pictures"] = pictures_of(run, job, source, trouble);
-  shown["copy_map"] = file_in_folder(run, job.record.value("copy_map", Json()));
-  shown["trace"] = job.trace.rows.empty() ? Json() : thin_trace(job.trace, trace_points);
-  return shown;
+  const JobRecord& record = job.record;
+  return {{"name", job.name},
+          {"exemplar", record.exemplar},
+          {"method", record.method},
+          {"kind", record.kind},
+          {"seed", record.seed},
+          {"width", record.size.width},
+          {"height", record.size.height},
+          {"status", to_word(record.status)},
+          {"error", record.error},
+          {"seconds", record.seconds},
+          {"peak_memory_mb", record.peak_memory_mb},
+          {"settings", record.settings},
+          {"metrics", to_json_value(record.metrics)},
+          {"score_error", record.score_error},
+          {"origin", origin_of(run, record)},
+          {"machine", to_json_value(record.machine)},
+          {"pictures", pictures_of(run, job, source, trouble)},
+          {"copy_map", file_in_folder(run, record.copy_map)},
+          {"trace", job.trace.rows.empty() ? Json() : thin_trace(job.trace, trace_points)}};
+}
+
+Json run_to_json(const RunRecord& run) {
+  return {{"date", run.date},
+          {"command", run.command},
+          {"config", run.config},
+          {"set", run.set},
+          {"versions", to_json_value(run.versions)},
+          {"machine", to_json_value(run.machine)}};
 }
 
 // The config's name, which is the folder's unless the user chose another one.
 std::string title_of(const RunOnDisk& run) {
-  const std::string config = fs::path(run.run.value("config", "")).stem().string();
+  const std::string config = fs::path(run.run.config).stem().string();
   if (!config.empty()) return config;
   return fs::absolute(run.folder).lexically_normal().parent_path().filename().string();
 }
@@ -178,28 +204,24 @@ Json thin_trace(const Trace& trace, std::size_t most) {
 Json page_data(const RunOnDisk& run) {
   Json trouble = Json::array();
   Json exemplars = Json::array();
-  Json methods = Json::array();
+  std::vector<std::string> methods;
   Json jobs = Json::array();
   std::map<std::string, Source> sources;
   for (const JobOnDisk& job : run.jobs) {
-    const std::string exemplar = job.record.at("exemplar");
+    const std::string& exemplar = job.record.exemplar;
     if (!sources.contains(exemplar)) {
       sources[exemplar] = read_source(run, exemplar, trouble);
       exemplars.push_back(sources[exemplar].shown);
     }
-    if (const Json& method = job.record.at("method");
+    if (const std::string& method = job.record.method;
         std::find(methods.begin(), methods.end(), method) == methods.end())
       methods.push_back(method);
     jobs.push_back(job_to_json(run, job, sources[exemplar], trouble));
   }
-  return {{"title", title_of(run)},
-          {"run", part(run.run, {"date", "command", "config", "set", "versions", "machine"})},
-          {"trouble", trouble},
-          {"metrics", metrics_to_json()},
-          {"exemplars", exemplars},
-          {"methods", methods},
-          {"jobs", jobs},
-          {"diversity", run.run.value("diversity", Json::array())}};
+  return {{"title", title_of(run)}, {"run", run_to_json(run.run)},
+          {"trouble", trouble},     {"metrics", metrics_to_json()},
+          {"exemplars", exemplars}, {"methods", methods},
+          {"jobs", jobs},           {"diversity", to_json_value(run.diversity)}};
 }
 
 }  // namespace gramloom

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/json_text.h"
 #include "runs/run_folder.h"
 
 namespace gramloom {
@@ -11,7 +12,8 @@ namespace gramloom {
 ///                maps {name: path …}, likewise, map_pictures [{label, file} …]} …]
 ///   methods    [name …], in the order of the jobs
 ///   jobs       [{name, exemplar, method, kind, seed, width, height, status, error, seconds,
-///                peak_memory_mb, settings, metrics, score_error, copy_map,
+///                peak_memory_mb, settings, metrics, score_error, copy_map, machine,
+///                origin {config, set, threads, edited: whether the config has changed since},
 ///                pictures [{label, file} …]: the texture, then its maps,
 ///                trace {steps, seconds, loss} or null} …]
 ///   diversity  [{exemplar, method, value} …]

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/error.h"
-#include "io/text_file.h"
+#include "runs/format.h"
+#include "runs/job_files.h"
 
 namespace gramloom {
 
@@ -31,39 +31,39 @@ int seed_of(const std::string& part) {
 }
 
 // What stands for a record that is not there: the state that run.json knows.
-Json placeholder(const std::string& name, const Json& state, const std::string& error) {
+JobRecord placeholder(const std::string& name, const JobStanding& standing) {
   const auto parts = parts_of(name);
-  return {{"exemplar", parts[0]},
-          {"method", parts[1]},
-          {"seed", seed_of(parts[2])},
-          {"status", error.empty() ? state.value("status", "waiting") : "failed"},
-          {"error", error.empty() ? state.value("error", "") : error}};
-}
-
-void check_record(const Json& record) {
-  for (const auto* key : {"exemplar", "method", "status", "error"})
-    if (!record.at(key).is_string()) throw Error("'{}' is not a text", key);
-  if (!record.at("seed").is_number_integer()) throw Error("'seed' is not a whole number");
+  JobRecord record;
+  record.exemplar = parts[0];
+  record.method = parts[1];
+  record.seed = seed_of(parts[2]);
+  record.status = standing.status;
+  record.error = standing.error;
+  return record;
 }
 
 Trace read_trace(const fs::path& file) {
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) return {};
-  return parse_trace(read_text(file));
+  try {
+    return parse_trace(read_text(file));
+  } catch (const Error& error) {
+    throw Error("{}: {}", file.string(), error.what());
+  }
 }
 
-JobOnDisk read_job(const fs::path& folder, const std::string& name, const Json& state) {
-  const fs::path file = folder / (name + ".json");
-  JobOnDisk job{name, placeholder(name, state, ""), {}};
+JobOnDisk read_job(const fs::path& folder, const std::string& name, const JobStanding& standing) {
+  const JobFiles files = job_files(folder, name);
+  JobOnDisk job{name, placeholder(name, standing), {}};
   std::error_code ignored;
-  if (!fs::exists(file, ignored)) return job;
+  if (!fs::exists(files.record, ignored)) return job;
   try {
-    Json record = Json::parse(read_text(file));
-    check_record(record);
+    JobRecord record = read_record(files.record);
+    job.trace = read_trace(files.trace);
     job.record = std::move(record);
-    job.trace = read_trace(folder / (name + ".csv"));
-  } catch (const std::exception& error) {
-    job.record = placeholder(name, state, fmt::format("its files: {}", error.what()));
+  } catch (const Error& error) {
+    job.record.status = Status::failed;
+    job.record.error = error.what();
   }
   return job;
 }
@@ -75,16 +75,17 @@ RunOnDisk read_run(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::exists(file, ignored))
     throw Error("{}: there is no run.json, so this is not the folder of a run", folder.string());
-  RunOnDisk run{folder, {}, {}};
-  try {
-    run.run = Json::parse(read_text(file));
-    for (const auto& [name, state] : run.run.at("jobs").items())
-      run.jobs.push_back(read_job(folder, name, state));
-  } catch (const Json::exception&) {
-    throw Error("{}: is not a run's", file.string());
-  } catch (const Error& error) {
-    throw Error("{}: {}", file.string(), error.what());
+  RunOnDisk run{folder, read_format<RunRecord>(file), {}, {}};
+  std::vector<NamedRecord> records;
+  for (const auto& [name, standing] : run.run.jobs) {
+    try {
+      run.jobs.push_back(read_job(folder, name, standing));
+    } catch (const Error& error) {
+      throw Error("{}: {}", file.string(), error.what());
+    }
+    records.push_back({name, run.jobs.back().record});
   }
+  run.diversity = valid_diversity(run.run.diversity, records);
   return run;
 }
 

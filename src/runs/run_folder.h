@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "runs/json.h"
+#include "runs/record.h"
+#include "runs/run_record.h"
 #include "runs/trace_file.h"
 
 namespace gramloom {
@@ -13,15 +14,16 @@ namespace gramloom {
 /// record that says so.
 struct JobOnDisk {
   std::string name;  // "pebbles/quilting/seed1": its files in the run's folder, without extension
-  Json record;       // at least exemplar, method, seed, status and error
-  Trace trace;       // no rows: the method does not iterate
+  JobRecord record;
+  Trace trace;  // no rows: the method does not iterate
 };
 
 /// A run as its folder tells it.
 struct RunOnDisk {
   std::filesystem::path folder;
-  Json run;  // run.json
+  RunRecord run;
   std::vector<JobOnDisk> jobs;
+  std::vector<SeedDiversity> diversity;  // of the textures that are there
 };
 
 /// Reads run.json and the jobs that it names. Throws Error when that file is missing or not one of

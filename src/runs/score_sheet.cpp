@@ -1,54 +1,60 @@
 #include "runs/score_sheet.h"
 
+#include <map>
+
+#include "runs/csv_fields.h"
+
 namespace gramloom {
 
 namespace {
 
-// As RFC 4180 has it: a cell with a comma or a quote stands in quotes.
-std::string cell(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
-std::string line_of(const std::vector<std::string>& cells) {
-  return fmt::format("{}\n", fmt::join(cells, ","));
-}
-
-std::string score_cell(const JobState& job, std::string_view metric,
-                       const std::vector<SeedDiversity>& diversity) {
-  if (metric == "diversity") {
-    for (const SeedDiversity& of : diversity)
-      if (of.exemplar == job.exemplar && of.method == job.method)
-        return fmt::format("{}", of.value);
-    return "";
-  }
-  const auto score = job.record->metrics.find(metric);
-  return score == job.record->metrics.end() || !score->is_number()
-             ? ""
-             : fmt::format("{}", score->get<double>());
+std::optional<double> score_of(const JobRecord& record, const std::string& metric) {
+  const auto score = record.metrics.find(metric);
+  return score == record.metrics.end() ? std::nullopt : score->second;
 }
 
 }  // namespace
 
-std::string score_sheet(const std::vector<JobState>& jobs,
-                        const std::vector<SeedDiversity>& diversity,
-                        const std::vector<std::string>& metrics) {
-  std::vector<std::string> header{"exemplar", "method",  "kind",          "seed",
-                                  "status",   "seconds", "peak_memory_mb"};
-  header.insert(header.end(), metrics.begin(), metrics.end());
-  std::string sheet = line_of(header);
-  for (const JobState& job : jobs) {
-    std::vector<std::string> cells{cell(job.exemplar), cell(job.method), cell(job.kind),
-                                   fmt::format("{}", job.seed), std::string(job.status())};
-    if (job.record) {
-      cells.push_back(fmt::format("{:.6g}", job.record->seconds));
-      cells.push_back(fmt::format("{:.6g}", job.record->peak_memory_mb));
-      for (const auto& metric : metrics) cells.push_back(score_cell(job, metric, diversity));
-    }
-    cells.resize(header.size());
-    sheet += line_of(cells);
+ScoreSheet score_sheet(const std::vector<NamedRecord>& jobs,
+                       const std::vector<SeedDiversity>& diversity,
+                       const std::vector<std::string>& metrics) {
+  std::map<std::pair<std::string, std::string>, double> diversities;
+  for (const SeedDiversity& of : diversity) diversities[{of.exemplar, of.method}] = of.value;
+  ScoreSheet sheet{metrics, {}};
+  for (const auto& [name, record] : jobs) {
+    ScoreRow row{
+        record.exemplar, record.method, record.kind, record.seed, record.status, {}, {}, {}};
+    const bool begun = record.status != Status::waiting;
+    if (begun) row.seconds = record.seconds, row.peak_memory_mb = record.peak_memory_mb;
+    const auto found = diversities.find({record.exemplar, record.method});
+    for (const auto& metric : metrics)
+      if (metric != "diversity")
+        row.scores.push_back(score_of(record, metric));
+      else
+        row.scores.push_back(begun && found != diversities.end() ? std::optional(found->second)
+                                                                 : std::nullopt);
+    sheet.rows.push_back(std::move(row));
+  }
+  return sheet;
+}
+
+std::string to_csv(const ScoreSheet& sheet) {
+  std::string csv = csv_line(field_columns<ScoreRow>(sheet.metrics));
+  for (const ScoreRow& row : sheet.rows) csv += csv_line(field_cells(row, row.scores));
+  return csv;
+}
+
+ScoreSheet parse_score_sheet(const std::string& csv) {
+  const std::vector<CsvRow> rows = parse_csv(csv);
+  ScoreSheet sheet;
+  for (const CsvRow& cells : rows) {
+    if (cells.size() < field_count<ScoreRow>)
+      throw Error("line {} of the table of scores has {} cells, allowed are at least {}",
+                  &cells - rows.data() + 1, cells.size(), field_count<ScoreRow>);
+    if (&cells == &rows.front())
+      sheet.metrics.assign(cells.begin() + field_count<ScoreRow>, cells.end());
+    else
+      sheet.rows.push_back(row_of_cells(cells, &ScoreRow::scores));
   }
   return sheet;
 }

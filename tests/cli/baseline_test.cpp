@@ -17,7 +17,7 @@ class BaselineRun : public Workspace {
     write_image(folder_ / name, file.image, file.encoding, file.metadata);
   }
   void damage_score(const std::string& job, const std::string& metric, double value) const {
-    JobRecord record = *read_record(folder_ / job);
+    JobRecord record = read_record(folder_ / job);
     record.metrics[metric] = value;
     write_record(folder_ / job, record);
   }
@@ -82,6 +82,21 @@ TEST_F(BaselineRun, ABaselineThatIsMissingOrBrokenIsFoundBeforeTheRun) {
       run({"run", "c.toml", "--output", "whole", "--baseline", "whole/../whole"});
   EXPECT_EQ(itself.exit_code, 2);
   EXPECT_NE(itself.errors.find("write over it"), std::string::npos) << itself.errors;
+}
+
+TEST_F(BaselineRun, ABaselineWithoutAFinishedJobIsAnError) {
+  ASSERT_EQ(run({"run", "c.toml", "--quiet", "--output", "whole"}).exit_code, 0);
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "whole"))
+    if (entry.path().filename().string().starts_with("seed") &&
+        entry.path().extension() == ".json") {
+      JobRecord record = read_record(entry.path());
+      record.status = Status::failed;
+      write_record(entry.path(), record);
+    }
+  const Outcome outcome = compare("whole");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("no job of it is finished"), std::string::npos) << outcome.errors;
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ class Interruption : public Workspace {
         EXPECT_NO_THROW(read_image(path)) << path;
       } else if (path.extension() == ".json") {
         EXPECT_TRUE(Json::accept(read_text(path))) << path;
-        const auto record = read_record(path);
+        const auto record = find_record(path);
         if (record && record->status == Status::done)
           for (const auto& name : record->files) {
             const fs::path picture = path.parent_path() / name;

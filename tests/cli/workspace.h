@@ -40,7 +40,7 @@ class Workspace : public testing::Test {
   Outcome run(std::vector<std::string> arguments) const { return gramloom(folder_, arguments); }
 
   std::optional<JobRecord> record(const std::string& job, const std::string& out = "out/c") const {
-    return read_record(folder_ / out / (job + ".json"));
+    return find_record(folder_ / out / (job + ".json"));
   }
   std::string file(const std::string& name) const { return read_text(folder_ / name); }
 

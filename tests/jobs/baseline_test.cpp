@@ -24,8 +24,8 @@ class BaselineTest : public testing::Test {
     record.metrics = {
         {"stsim2", 0.9}, {"spectrum_db", 2.0}, {"copied_share", 0.0}, {"seam_x", 0.5}};
     record.files = {"seed1.png"};
-    before_ = {folder_ / "before", {{job_, record}}, {{"e", "m", {1, 2}, 0.8}}};
-    now_ = {folder_ / "now", {{job_, record}}, {{"e", "m", {1, 2}, 0.8}}};
+    before_ = {folder_ / "before", {{job_, record}}, {{"e", "m", {1, 2}, 0.8, ""}}};
+    now_ = {folder_ / "now", {{job_, record}}, {{"e", "m", {1, 2}, 0.8, ""}}};
     for (const auto& run : {before_, now_}) fs::create_directories(run.folder / "e/m");
     write(before_, picture_);
     write(now_, picture_);
@@ -133,7 +133,7 @@ TEST_F(BaselineTest, NearTheBestAndBeyondItChangesDoNotCount) {
 }
 
 TEST_F(BaselineTest, ScoresThatAreGone) {
-  now().metrics = Json::object();
+  now().metrics.clear();
   EXPECT_EQ(verdict(), "") << "this run was asked for none";
   now().score_error = "out of memory";
   EXPECT_EQ(verdict(), "scores worse");

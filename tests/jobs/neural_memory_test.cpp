@@ -25,7 +25,7 @@ double bytes_of(const NeuralParams& params, const Image& exemplar, const Target&
   malloc_trim(0);
   reset_peak_memory();
   const double before = peak_memory();
-  const Control control{[](const Progress& p) { return p.step < p.steps; }, checkpoint};
+  const Control control{[](const Progress& p) { return p.step < p.steps; }, checkpoint, ""};
   synthesise(params, {{{exemplar}}, target, Random(1)}, control);
   const double bytes = peak_memory() - before;
   std::filesystem::remove(checkpoint);

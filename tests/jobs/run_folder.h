@@ -54,7 +54,7 @@ class Runner : public testing::Test {
 
   std::filesystem::path out(const std::string& name) const { return folder_ / "out" / name; }
   JobRecord record(const std::string& job) const {
-    const auto found = read_record(out(job + ".json"));
+    const auto found = find_record(out(job + ".json"));
     EXPECT_TRUE(found) << job;
     return found.value_or(JobRecord{});
   }

@@ -97,6 +97,22 @@ TEST_F(Runner, ResumeRedoesWhatChanged) {
   EXPECT_EQ(resume(two_textures, set).skipped, 2);
 }
 
+TEST_F(Runner, ResumeRedoesANeuralJobWhoseNetworkWasEdited) {
+  const std::string network =
+      "name = \"own\"\nsummary = \"\"\nmatched = [\"c\"]\n"
+      "[[layer]]\nname = \"c\"\ntype = \"convolution\"\nchannels = 4\nkernel = 3\n";
+  write_text(folder_ / "own.toml", network);
+  const std::string config =
+      "size = [24, 16]\nscores = false\n[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"
+      "[[method]]\nname = 'n'\nkind = 'neural'\nnetwork = 'own.toml'\niterations = 2\n";
+  const std::vector<std::string> looks_at_it{"sliced_weight=0", "gram_weight=1"};
+  run_text(config, {}, looks_at_it);
+  EXPECT_EQ(resume(config, looks_at_it).skipped, 1);
+  write_text(folder_ / "own.toml", network + "[[layer]]\nname = \"r\"\ntype = \"relu\"\n");
+  EXPECT_EQ(resume(config, looks_at_it).done, 1);
+  EXPECT_EQ(resume(config, looks_at_it).skipped, 1);
+}
+
 TEST_F(Runner, AStopBetweenJobsLeavesTheRestForResume) {
   int asked = 0;
   RunOptions options;

@@ -116,7 +116,7 @@ TEST_F(RunScores, SheetHasALineForEachJob) {
 
 TEST_F(RunScores, StoppedAtAnyMomentAndResumedTheyAreAllThere) {
   run_text(two_textures, {}, two_seeds);
-  const Json whole = record("e/b/seed1").metrics;
+  const auto whole = record("e/b/seed1").metrics;
   const Json whole_diversity = diversity();
   // Each question is a moment: before each job, at each of its steps, at each of its scores'.
   bool unscored = false;

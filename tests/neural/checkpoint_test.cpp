@@ -13,7 +13,7 @@ TEST(Checkpoint, KeepsEveryNumberExactly) {
   using Limits = std::numeric_limits<double>;
   const fs::path file = fs::path(testing::TempDir()) / "numbers.checkpoint";
   Checkpoint written;
-  written.fingerprint = "f";
+  written.identity = "f";
   written.iteration = (std::int64_t{1} << 53) - 1;
   written.first_level = 4;
   written.first_loss = 1.0 / 3;

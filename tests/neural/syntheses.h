@@ -20,12 +20,13 @@ inline Image stripes(Size size, int channels) {
 
 struct Trace {
   std::vector<Progress> steps;
-  Control control(std::int64_t stop_at = -1, std::filesystem::path checkpoint = {}) {
+  Control control(std::int64_t stop_at = -1, std::filesystem::path checkpoint = {},
+                  std::string identity = "") {
     return {[this, stop_at](const Progress& progress) {
               steps.push_back(progress);
               return progress.step != stop_at;
             },
-            std::move(checkpoint)};
+            std::move(checkpoint), std::move(identity)};
   }
 };
 

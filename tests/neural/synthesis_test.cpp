@@ -256,8 +256,9 @@ TEST_P(Interrupted, ACheckpointOfAnotherSynthesisIsNotUsed) {
   const fs::path checkpoint =
       fs::path(testing::TempDir()) / fmt::format("other_{}.checkpoint", to_word(GetParam()));
   Trace first, second;
-  synthesise(params, {{{exemplar}}, target, Random(1)}, first.control(5, checkpoint));
-  synthesise(params, {{{exemplar}}, target, Random(2)}, second.control(-1, checkpoint));
+  synthesise(params, {{{exemplar}}, target, Random(1)}, first.control(5, checkpoint, "seed 1"));
+  ASSERT_TRUE(fs::exists(checkpoint));
+  synthesise(params, {{{exemplar}}, target, Random(2)}, second.control(-1, checkpoint, "seed 2"));
   EXPECT_EQ(second.steps.front().step, 1);
   fs::remove(checkpoint);
 }

@@ -62,7 +62,7 @@ TEST_F(PageData, HoldsWhatTheFolderHolds) {
   write_run({{"brick/q/seed1", {{"status", "done"}}}},
             {{"set", {"size=4"}},
              {"settings", {{"exemplar", {{{"name", "brick"}, {"image", "../data/brick.png"}}}}}},
-             {"diversity", {{{"exemplar", "brick"}, {"method", "q"}, {"value", 0.5}}}}});
+             {"diversity", {{{"exemplar", "brick"}, {"method", "q"}, {"seeds", {1}}, {"value", 0.5}}}}});
   write_job("brick/q/seed1",
             {{"files", {"seed1.png", "seed1_height.png"}}, {"copy_map", "brick/q/map.png"}});
   for (const std::string name :

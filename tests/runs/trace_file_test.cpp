@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "runs/record.h"
 
 namespace gramloom {
@@ -12,6 +13,23 @@ TEST(Trace, NumbersComeBackAsTheyWere) {
                     {{0, 1, 0.25, 1.0 / 3, {0.1, 1e-300}}, {1, 3, 0.5, 1e22, {2, 3e-7}}}};
   EXPECT_EQ(parse_trace(to_csv(trace)), trace);
   EXPECT_EQ(to_csv(trace).substr(0, to_csv(trace).find('\n')), "step,evaluations,seconds,loss,a,b");
+}
+
+TEST(Trace, NamesComeBackAsTheyWere) {
+  for (const std::string name : {"a,b", "\"", "line\nend", "#", "", " x ", "\r"}) {
+    const Trace trace{{name, "b"}, {{0, 1, 0.25, 0.5, {1, 2}}}};
+    EXPECT_EQ(parse_trace("# mark\n" + to_csv(trace)), trace) << name;
+  }
+  EXPECT_EQ(to_csv({{"a,b", "c\"d"}, {}}), "step,evaluations,seconds,loss,\"a,b\",\"c\"\"d\"\n");
+}
+
+TEST(Trace, ACellThatIsNoNumberIsNamed) {
+  try {
+    parse_trace("step,evaluations,seconds,loss\n1,2,0.5,x\n");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "loss: 'x' is not a number");
+  }
 }
 
 TEST(Trace, ALineThatWasCutOffIsLeftOut) {

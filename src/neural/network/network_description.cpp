@@ -7,6 +7,7 @@
 #include "io/text_file.h"
 #include "io/toml_reader.h"
 #include "neural/models_folder.h"
+#include "neural/params.h"
 
 namespace gramloom {
 
@@ -108,6 +109,10 @@ fs::path find_network(const FileOrName& network) {
                     models_folder().string(), fmt::join(names, ", "));
 }
 
+fs::path network_file(const NeuralParams& params) {
+  return needs_network(params) ? find_network(params.network) : fs::path();
+}
+
 NetworkDescription read_network(const fs::path& file) {
   std::string text;
   try {
@@ -162,7 +167,7 @@ int radius_of(const LayerKind& kind) {
 std::vector<Size> map_sizes(const NetworkDescription& network, Size picture, Tile valid) {
   std::vector<Size> sizes;
   Size size = picture;
-  for (const Layer& layer : network.layers) {
+  for (const NetworkLayer& layer : network.layers) {
     const int lost = 2 * radius_of(layer.kind);
     if (tiles_x(valid)) size.width -= lost;
     if (tiles_y(valid)) size.height -= lost;

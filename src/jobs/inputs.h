@@ -1,0 +1,40 @@
+#pragma once
+
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/json_fields.h"
+#include "jobs/config.h"
+
+namespace gramloom {
+
+/// The hash of a file's bytes (core/hash.h). Throws Error when the file cannot be read.
+std::string file_hash(const std::filesystem::path& path);
+
+/// Hashes of files that may change at any time. A file is read again only when the file system says
+/// that it is another one, or was written since.
+class FileHashes {
+ public:
+  /// "" for what is no file or cannot be read.
+  std::string of(const std::filesystem::path& path);
+
+ private:
+  struct Known {
+    struct stat state;
+    std::string hash;
+  };
+  std::map<std::filesystem::path, Known> known_;
+};
+
+/// The hashes of an exemplar's picture and of its maps by name.
+std::vector<std::string> exemplar_hashes(const ExemplarEntry& exemplar, FileHashes& hashes);
+
+/// The hashes of the files that a method reads: those that its parameters name, and the "network"
+/// that is meant by a name.
+Named<std::string> method_hashes(const Method& method, FileHashes& hashes);
+
+}  // namespace gramloom

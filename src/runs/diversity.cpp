@@ -1,0 +1,44 @@
+#include "runs/diversity.h"
+
+#include <map>
+
+#include "core/hash.h"
+
+namespace gramloom {
+
+namespace {
+
+// Adds a job to what its exemplar and method have.
+void add(SeedDiversity& of, const JobRecord& record) {
+  of.seeds.push_back(record.seed);
+  const bool known = !record.texture.empty() && (of.seeds.size() == 1 || !of.textures.empty());
+  of.textures = known ? hash_of(of.textures + record.texture) : "";
+}
+
+}  // namespace
+
+SeedDiversity diversity_of_records(const std::string& exemplar, const std::string& method,
+                                   const std::vector<NamedRecord>& jobs) {
+  SeedDiversity of{exemplar, method, {}, 0, ""};
+  for (const auto& [name, record] : jobs)
+    if (record.status == Status::done && record.exemplar == exemplar && record.method == method)
+      add(of, record);
+  return of;
+}
+
+std::vector<SeedDiversity> valid_diversity(const std::vector<SeedDiversity>& list,
+                                           const std::vector<NamedRecord>& jobs) {
+  std::map<std::pair<std::string, std::string>, SeedDiversity> now;
+  for (const auto& [name, record] : jobs)
+    if (record.status == Status::done) add(now[{record.exemplar, record.method}], record);
+  std::vector<SeedDiversity> valid;
+  for (const SeedDiversity& of : list) {
+    const auto found = now.find({of.exemplar, of.method});
+    if (found != now.end() && found->second.seeds == of.seeds &&
+        found->second.textures == of.textures)
+      valid.push_back(of);
+  }
+  return valid;
+}
+
+}  // namespace gramloom
