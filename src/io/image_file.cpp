@@ -14,7 +14,7 @@ void check_file(const fs::path& path) {
   const fs::file_status status = fs::status(path, error);
   if (error) throw Error("{}: cannot read: {}", path.string(), error.message());
   if (fs::is_directory(status)) throw Error("{}: cannot read: Is a directory", path.string());
-  if (fs::is_regular_file(status) && fs::file_size(path) == 0)
+  if (fs::is_regular_file(status) && fs::file_size(path, error) == 0)
     throw Error("{}: the file is empty", path.string());
 }
 
