@@ -24,7 +24,7 @@ class Interruption : public Workspace {
   }
 
   void wait_for_file(const fs::path& file) const {
-    for (int i = 0; i < 1000 && !fs::exists(folder_ / file); ++i)
+    for (int i = 0; i < 12000 && !fs::exists(folder_ / file); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     ASSERT_TRUE(fs::exists(folder_ / file)) << file;
   }

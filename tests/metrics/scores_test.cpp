@@ -11,6 +11,7 @@
 
 #include "core/threads.h"
 #include "metrics/controls.h"
+#include "metrics/exemplar_statistics.h"
 #include "metrics/pictures.h"
 
 namespace gramloom {
@@ -85,6 +86,19 @@ TEST(Scores, SameBytesForAnyThreads) {
     EXPECT_EQ(more.copy_map, one.copy_map) << threads;
   }
   set_thread_count(0);
+}
+
+TEST(Scores, OfAnExemplarForManyPicturesAreThoseOfEach) {
+  const Image exemplar = pebbles();
+  ExemplarStatistics statistics(exemplar);
+  // Other sizes ask for other levels and rings; the first ones must still be there afterwards.
+  const std::vector<Image> images{pebbles(2), grain({40, 36}, 3), brick(1, 192), pebbles(2)};
+  for (const Image& image : images) {
+    const Scores one = score(exemplar, image, Tile::both);
+    const Scores many = score(statistics, image, Tile::both);
+    EXPECT_EQ(many.values, one.values);
+    EXPECT_EQ(many.copy_map, one.copy_map);
+  }
 }
 
 TEST(Scores, RefuseWhatCannotBeCompared) {

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int patience_ms = 60000;
+constexpr int patience_ms = 300000;  // a busy machine starts a browser slowly
 
 // The browser reads commands from file 3 and answers on file 4.
 [[noreturn]] void become(const fs::path& program, const fs::path& profile, int commands,
