@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "core/error.h"
+#include "core/spinning.h"
 #include "core/threads.h"
 #include "io/field_values.h"
 #include "io/text_file.h"
@@ -114,10 +115,19 @@ bool show_run(const std::filesystem::path& folder, ProgressBar& bar) {
   }
 }
 
+// Whether the libraries of neural methods, which bring OpenMP's threads, will be at work.
+bool has_neural_jobs(const Config& config) {
+  return std::ranges::any_of(config.methods, [](const MethodEntry& method) {
+    return std::holds_alternative<NeuralParams>(method.method);
+  });
+}
+
 ExitCode run_command(const Arguments& arguments) {
   keep_large_buffers();
   set_thread_count(arguments.threads);
   const Config config = read_config(arguments.config, arguments.set);
+  if (has_neural_jobs(config) && std::filesystem::is_regular_file(config.file))
+    bound_spinning(arguments.words);
   watch_signals();
   RunOptions options;
   options.is_default_output = arguments.output.empty();

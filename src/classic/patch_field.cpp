@@ -17,14 +17,20 @@ constexpr int lanes = 8;
 typedef float Lanes __attribute__((vector_size(lanes * sizeof(float)), aligned(4), may_alias));
 constexpr int row_lanes = field_patch * field_features / lanes;
 
+__attribute__((always_inline)) inline float sum_of(const Lanes (&sums)[row_lanes]) {
+  const Lanes sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+  return ((sum[0] + sum[4]) + (sum[1] + sum[5])) + ((sum[2] + sum[6]) + (sum[3] + sum[7]));
+}
+
 /// Squared distance of two patches, whose rows are `a_row` and `b_row` values apart; at least
-/// `limit`, but not all of it, when the upper half alone comes to that.
+/// `limit`, but not all of it, when the rows looked at come to that. Most do in the first two.
 __attribute__((always_inline)) inline float squared_distance(const float* a, std::ptrdiff_t a_row,
                                                              const float* b, std::ptrdiff_t b_row,
                                                              float limit) {
   float total = 0;
   for (int half = 0; half < 2; ++half) {
     Lanes sums[row_lanes] = {};
+    float with_half = 0;
     for (int y = 0; y < field_patch / 2; ++y, a += a_row, b += b_row) {
       const Lanes* av = reinterpret_cast<const Lanes*>(a);
       const Lanes* bv = reinterpret_cast<const Lanes*>(b);
@@ -32,10 +38,11 @@ __attribute__((always_inline)) inline float squared_distance(const float* a, std
         const Lanes d = av[k] - bv[k];
         sums[k] += d * d;
       }
+      if (y % 2 == 0) continue;
+      with_half = total + sum_of(sums);
+      if (with_half >= limit) return with_half;
     }
-    const Lanes sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-    total += ((sum[0] + sum[4]) + (sum[1] + sum[5])) + ((sum[2] + sum[6]) + (sum[3] + sum[7]));
-    if (total >= limit) return total;
+    total = with_half;
   }
   return total;
 }

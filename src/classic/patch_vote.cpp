@@ -12,21 +12,36 @@ namespace gramloom {
 namespace {
 
 constexpr int border = field_patch - 1;
-constexpr int lanes = 8;
-typedef float Lanes __attribute__((vector_size(lanes * sizeof(float)), aligned(4), may_alias));
+typedef float Pixel
+    __attribute__((vector_size(field_features * sizeof(float)), aligned(4), may_alias));
 
-/// Adds one row of patches' `line`th lines: weight · values to sums, weight to weights.
+/// Adds one row of patches' `line`th lines: weight · values to sums, weight to weights. Pixel by
+/// pixel, whose sums stay in registers: added patch by patch, each would wait for the stores of the
+/// one before. `offsets` is room for `count` numbers.
 GRAMLOOM_SIMD void add_lines(const PatchOrigin* origins, const float* patch_weights, int count,
-                             const Image& exemplar, int line, float* sums, float* weights) {
-  for (int x = 0; x < count; ++x) {
-    const Lanes* from =
-        reinterpret_cast<const Lanes*>(exemplar.at(origins[x].x, origins[x].y + line));
-    Lanes* to = reinterpret_cast<Lanes*>(sums + x * field_features);
-    Lanes* weight = reinterpret_cast<Lanes*>(weights + x);
-    for (int k = 0; k < field_patch * field_features / lanes; ++k)
-      to[k] += patch_weights[x] * from[k];
-    *weight += patch_weights[x];
-  }
+                             const Image& exemplar, int line, float* sums, float* weights,
+                             std::ptrdiff_t* offsets) {
+  const float* values = exemplar.pixels.data();
+  for (int x = 0; x < count; ++x)  // of what the patch would say about pixel 0
+    offsets[x] =
+        (static_cast<std::ptrdiff_t>(origins[x].y + line) * exemplar.width + origins[x].x - x) *
+        field_features;
+  const auto add = [&](int pixel, int first, int end) __attribute__((always_inline)) {
+    Pixel& sum = *reinterpret_cast<Pixel*>(sums + pixel * field_features);
+    Pixel colours = sum;
+    float weight = weights[pixel];
+    for (int x = first; x < end; ++x) {
+      colours += patch_weights[x] *
+                 *reinterpret_cast<const Pixel*>(values + offsets[x] + pixel * field_features);
+      weight += patch_weights[x];
+    }
+    sum = colours;
+    weights[pixel] = weight;
+  };
+  for (int pixel = 0; pixel < std::min(border, count); ++pixel) add(pixel, 0, pixel + 1);
+  for (int pixel = border; pixel < count; ++pixel) add(pixel, pixel - border, pixel + 1);
+  for (int pixel = count; pixel < count + border; ++pixel)
+    add(pixel, std::max(0, pixel - border), count);
 }
 
 /// Calls f(patch's row in the field, line of the patch) for the patches over row y of the canvas.
@@ -71,13 +86,14 @@ Image vote(const PatchField& field, const Image& exemplar, float floor) {
                });
   parallel_for(size.height, 8, [&](std::int64_t first, std::int64_t last) {
     std::vector<float> sums, weights;
+    std::vector<std::ptrdiff_t> offsets(static_cast<std::size_t>(field.size.width));
     for (int y = static_cast<int>(first); y < last; ++y) {
       sums.assign(static_cast<std::size_t>(canvas.width * field_features), 0.0f);
       weights.assign(static_cast<std::size_t>(canvas.width), 0.0f);
       for_each_patch_row(field, y, [&](int row, int line) {
         const std::size_t start = field.index(0, row);
         add_lines(field.nearest.data() + start, patch_weights.data() + start, field.size.width,
-                  exemplar, line, sums.data(), weights.data());
+                  exemplar, line, sums.data(), weights.data(), offsets.data());
       });
       for (int x = size.width; x < canvas.width; ++x) {
         const int back = x % size.width;

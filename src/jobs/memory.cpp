@@ -5,6 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "core/control_group.h"
+
 namespace gramloom {
 
 namespace {
@@ -41,18 +43,10 @@ double left_in_group(const std::string& folder, const char* limit, const char* u
 
 // The least of the process's group (version 2) and the groups above it, and of version 1's.
 double left_in_groups() {
-  const std::string root = "/sys/fs/cgroup";
-  double left = left_in_group(root + "/memory", "/memory.limit_in_bytes", "/memory.usage_in_bytes",
-                              "total_inactive_file");
-  std::ifstream groups("/proc/self/cgroup");
-  for (std::string line; std::getline(groups, line);) {
-    if (!line.starts_with("0::")) continue;
-    for (std::string path = line.substr(3);; path.erase(path.rfind('/'))) {
-      left = std::min(
-          left, left_in_group(root + path, "/memory.max", "/memory.current", "inactive_file"));
-      if (path.find('/') == std::string::npos) break;
-    }
-  }
+  double left = left_in_group("/sys/fs/cgroup/memory", "/memory.limit_in_bytes",
+                              "/memory.usage_in_bytes", "total_inactive_file");
+  for (const auto& group : control_groups())
+    left = std::min(left, left_in_group(group, "/memory.max", "/memory.current", "inactive_file"));
   return left;
 }
 

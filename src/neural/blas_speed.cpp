@@ -4,10 +4,12 @@
 #include <chrono>
 
 #include "neural/module.h"
+#include "neural/openmp.h"
 
 namespace gramloom::neural {
 
 double measure_blas() {
+  const InThisThread in_this_thread;
   constexpr std::int64_t side = 256;
   const at::Tensor a = at::ones({side, side}), b = at::ones({side, side});
   double best = 0;

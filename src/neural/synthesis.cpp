@@ -1,4 +1,3 @@
-#include <ATen/Parallel.h>
 #include <c10/core/GradMode.h>
 #include <malloc.h>
 
@@ -13,6 +12,7 @@
 #include "neural/loss/loss.h"
 #include "neural/module.h"
 #include "neural/network/make_network.h"
+#include "neural/openmp.h"
 #include "neural/picture.h"
 #include "neural/resample.h"
 #include "neural/settings.h"
@@ -250,7 +250,7 @@ class Synthesis {
 Texture run_synthesis(const NeuralParams& params, const Request& request, const Control& control) {
   const Image& exemplar = request.exemplars.front().image;
   const c10::NoGradGuard no_gradients;
-  at::set_num_threads(thread_count());
+  start_openmp();
   Synthesis synthesis(params, exemplar, request.target, request.random, control);
   Texture texture;
   texture.image = unwhitened(to_image(synthesis.run()), synthesis.colours());

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/threads.h"
+#include "neural/openmp.h"
 
 namespace gramloom::neural {
 
@@ -118,6 +119,7 @@ at::Tensor project_patches(const at::Tensor& planes, const at::Tensor& filters, 
     scalar_t* target = result.data_ptr<scalar_t>();
     const std::int64_t plane = picture.stride(0), row = picture.stride(1);
     parallel_for(l.shares, 1, [&](std::int64_t begin, std::int64_t end) {
+      const InThisThread in_this_thread;
       const auto patches = std::make_unique_for_overwrite<scalar_t[]>(l.values_at_once());
       for (std::int64_t s = begin; s < end; ++s)
         l.for_a_few_rows(s, [&](std::int64_t first, std::int64_t rows) {
@@ -149,6 +151,7 @@ void spread_patches(const at::Tensor& gradient, const at::Tensor& filters, Tile 
     // Shares overlap by less than one share: first the even ones, then the odd ones.
     for (std::int64_t parity = 0; parity < 2; ++parity)
       parallel_for((l.shares + 1 - parity) / 2, 1, [&](std::int64_t begin, std::int64_t end) {
+        const InThisThread in_this_thread;
         const auto patches = std::make_unique_for_overwrite<scalar_t[]>(l.values_at_once());
         for (std::int64_t i = begin; i < end; ++i)
           l.for_a_few_rows(2 * i + parity, [&](std::int64_t first, std::int64_t rows) {

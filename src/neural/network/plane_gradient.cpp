@@ -1,10 +1,9 @@
 #include "neural/network/plane_gradient.h"
 
-#include <c10/core/GradMode.h>
-
 #include <algorithm>
 
 #include "core/threads.h"
+#include "neural/openmp.h"
 
 namespace gramloom::neural {
 
@@ -50,7 +49,7 @@ at::Tensor plane_gradient(const at::Tensor& upstream, const at::Tensor& weights,
   const std::int64_t shares = (height + rows_of_share - 1) / rows_of_share;
   std::vector<at::Tensor> results(static_cast<std::size_t>(shares));
   parallel_for(shares, 1, [&](std::int64_t begin, std::int64_t end) {
-    const c10::NoGradGuard no_gradients;
+    const InThisThread in_this_thread;
     for (std::int64_t s = begin; s < end; ++s) {
       const std::int64_t last = std::min(height, (s + 1) * rows_of_share);
       at::Tensor own =

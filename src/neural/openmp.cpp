@@ -1,0 +1,65 @@
+#include "neural/openmp.h"
+
+#include <ATen/Parallel.h>
+#include <omp.h>
+
+#include <mutex>
+#include <new>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "core/threads.h"
+
+namespace gramloom::neural {
+
+namespace {
+
+// How many of `wanted` threads, this one among them, the system lets us have at the same time.
+// libgomp itself ends the process when it is refused one.
+int obtainable_threads(int wanted) {
+  std::mutex gate;
+  std::vector<std::thread> threads;
+  {
+    const std::lock_guard closed(gate);
+    try {
+      while (static_cast<int>(threads.size()) + 1 < wanted)
+        threads.emplace_back([&] { const std::lock_guard through(gate); });
+    } catch (const std::system_error&) {
+    } catch (const std::bad_alloc&) {
+    }
+  }
+  for (std::thread& thread : threads) thread.join();
+  return static_cast<int>(threads.size()) + 1;
+}
+
+// The size of a team that asks for that many.
+int team_size(int wanted) {
+  int size = 1;
+#pragma omp parallel num_threads(wanted)
+  {
+#pragma omp single
+    size = omp_get_num_threads();
+  }
+  return size;
+}
+
+}  // namespace
+
+void start_openmp() {
+  omp_set_dynamic(0);
+  const int wanted = thread_count();
+  const int threads = team_size(obtainable_threads(wanted));
+  at::set_num_threads(threads);
+  if (threads < wanted) set_thread_count(threads);
+}
+
+InThisThread::InThisThread() {
+  at::get_num_threads();  // the first call in a thread sets what is set here
+  threads_before_ = omp_get_max_threads();
+  omp_set_num_threads(1);
+}
+
+InThisThread::~InThisThread() { omp_set_num_threads(threads_before_); }
+
+}  // namespace gramloom::neural
