@@ -35,8 +35,6 @@ std::string type_name(const toml::node& node) {
 
 [[noreturn]] void out_of_range(const auto& value, const detail::Slot& slot) {
   constexpr bool integer = std::is_integral_v<std::decay_t<decltype(value)>>;
-  if (integer)
-    fail(slot.region, "'{}' = {:.0f}: allowed are {}", slot.key, value, describe(slot.range, true));
   fail(slot.region, "'{}' = {}: allowed are {}", slot.key, value, describe(slot.range, integer));
 }
 

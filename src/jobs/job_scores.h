@@ -21,8 +21,8 @@ using JobGroup = std::vector<const PlannedJob*>;
 /// Those that are finished, as their records say.
 std::vector<NamedRecord> finished_jobs(const Run& run, const JobGroup& jobs);
 
-/// How unlike the textures of these finished jobs, of the exemplar of `job`, are: see metrics' diversity(). Throws Error for
-/// fewer than two, Interrupted when the user stops it.
+/// How unlike the textures of these finished jobs, of the exemplar of `job`, are: see metrics'
+/// diversity(). Throws Error for fewer than two, Interrupted when the user stops it.
 double diversity_of(Run& run, const Job& job, const std::vector<NamedRecord>& jobs);
 
 }  // namespace gramloom

@@ -197,8 +197,7 @@ std::string reason_to_run(Run& run, const PlannedJob& planned) {
     if (name == "gramloom" && made_by != version())
       return fmt::format("made by gramloom {}, this is {}", made_by, version());
   const InputHashes inputs = input_hashes(run.config, planned.job, run.hashes);
-  const Json changes =
-      Json::diff(record->settings, job_settings(run.config, planned.job, inputs));
+  const Json changes = Json::diff(record->settings, job_settings(run.config, planned.job, inputs));
   if (changes.empty()) return "";
   return fmt::format("{} changed since", changes.front().at("path").get<std::string>().substr(1));
 }

@@ -26,7 +26,7 @@ struct Run {
   std::optional<std::size_t> loaded = {};  // which exemplar
   std::vector<std::string> loaded_hashes = {};  // of its files when they were read
   Request request = {};
-  std::vector<ExemplarFile> files = {};  // of that exemplar
+  std::vector<ExemplarFile> files = {};               // of that exemplar
   std::optional<ExemplarStatistics> statistics = {};  // of its picture, for the scores
 
   bool stopped() const { return options.stop && options.stop(); }

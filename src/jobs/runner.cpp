@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // What --resume finds finished; says why when it finds nothing.
-std::optional<JobRecord> finished_before(const Run& run, const PlannedJob& planned) {
+std::optional<JobRecord> finished_before(Run& run, const PlannedJob& planned) {
   const JobFiles files = job_files(run.options.output, planned.name);
   const std::string reason = reason_to_run(run, planned);
   if (reason.empty()) {
@@ -94,6 +94,8 @@ void count_outcome(RunSummary& summary, Status status, bool before) {
       break;
     case Status::interrupted:
       ++summary.interrupted;
+      break;
+    case Status::waiting:  // no job that was begun
       break;
   }
 }

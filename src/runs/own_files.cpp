@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "core/error.h"
+#include "io/json_text.h"
 #include "io/text_file.h"
-#include "runs/json.h"
 
 namespace gramloom {
 
@@ -26,8 +26,12 @@ std::optional<std::string> text_of(const fs::path& file) {
 std::optional<Json> json_of(const fs::path& file) {
   const auto text = text_of(file);
   if (!text) return std::nullopt;
-  Json json = Json::parse(*text, nullptr, false);
-  return json.is_object() ? std::optional(std::move(json)) : std::nullopt;
+  try {
+    Json json = parse_json(*text);
+    return json.is_object() ? std::optional(std::move(json)) : std::nullopt;
+  } catch (const Error&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // Seconds of one evaluation of the loss with its gradient, by network and size; the Gram matrix
 // alone; L-BFGS alone. Run: build/tests/bench/neural_bench [--benchmark_filter=…]
 #include <ATen/Parallel.h>
-#include <c10/core/GradMode.h>
 #include <benchmark/benchmark.h>
+#include <c10/core/GradMode.h>
 
 #include "core/threads.h"
 #include "neural/loss/loss.h"

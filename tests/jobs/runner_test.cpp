@@ -2,7 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
+#include "core/hash.h"
+#include "jobs/inputs.h"
+#include "jobs/machine.h"
 #include "jobs/run_folder.h"
+#include "runs/format.h"
+#include "runs/run_record.h"
 
 namespace gramloom {
 namespace {
@@ -111,6 +118,78 @@ TEST_F(Runner, ResumeRedoesANeuralJobWhoseNetworkWasEdited) {
   write_text(folder_ / "own.toml", network + "[[layer]]\nname = \"r\"\ntype = \"relu\"\n");
   EXPECT_EQ(resume(config, looks_at_it).done, 1);
   EXPECT_EQ(resume(config, looks_at_it).skipped, 1);
+  const JobRecord found = record("e/n/seed1");
+  ASSERT_TRUE(found.network);
+  EXPECT_EQ(found.network->text, read_text(folder_ / "own.toml"));
+  EXPECT_EQ(found.settings["files"]["network"], file_hash(folder_ / "own.toml"));
+}
+
+TEST_F(Runner, ARecordSaysWhatItDependedOn) {
+  const std::vector<std::string> set{"patch_size=9"};
+  run_text(two_textures, {}, set);
+  const JobRecord found = record("e/b/seed1");
+  EXPECT_EQ(found.machine, machine());
+  EXPECT_EQ(found.versions, versions());
+  EXPECT_EQ(found.config, (folder_ / "c.toml").string());
+  EXPECT_EQ(found.config_hash, hash_of(two_textures));
+  EXPECT_EQ(found.set, set);
+  EXPECT_EQ(found.settings["exemplar"]["hash"], file_hash(folder_ / "e.png"));
+  EXPECT_EQ(found.texture, file_hash(out("e/b/seed1.png")));
+  EXPECT_FALSE(found.network);
+}
+
+TEST_F(Runner, ResumeRedoesWhatAnotherVersionMadeButNotForOtherThreadsOrMachines) {
+  run_text(two_textures);
+  JobRecord changed = record("e/b/seed1");
+  changed.machine = {"another processor", 99, 99, "1 kB"};
+  for (auto& [name, text] : changed.versions)
+    if (name != "gramloom") text = "another";
+  write_record(out("e/b/seed1.json"), changed);
+  EXPECT_EQ(resume(two_textures).skipped, 2);
+  for (auto& [name, text] : changed.versions)
+    if (name == "gramloom") text = "0.0.1";
+  write_record(out("e/b/seed1.json"), changed);
+  EXPECT_EQ(resume(two_textures).done, 1);
+}
+
+TEST_F(Runner, AnExemplarThatChangesDuringTheRunIsHashedAsItWasRead) {
+  RunOptions options;
+  int asked = 0;
+  // Between the two jobs: the exemplar was planned with, but is not read yet.
+  options.stop = [&] {
+    if (++asked == 1) write_exemplar(2);
+    return false;
+  };
+  run_text(two_textures, options);
+  EXPECT_EQ(record("e/b/seed1").settings["exemplar"]["hash"], file_hash(folder_ / "e.png"));
+  EXPECT_EQ(resume(two_textures).skipped, 2);
+}
+
+TEST_F(Runner, RunFilesAreNotWrittenForEachJob) {
+  std::string seeds = "seeds=[1";
+  for (int seed = 2; seed <= 60; ++seed) seeds += fmt::format(",{}", seed);
+  const std::vector<std::string> set{seeds + "]", "scores=false", "size=8"};
+  for (const bool again : {false, true}) {
+    const auto start = std::chrono::steady_clock::now();
+    const RunSummary summary = again ? resume(two_textures, set) : run_text(two_textures, {}, set);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    EXPECT_EQ(again ? summary.skipped : summary.done, 120);
+    // At the start, at the end, and once a second.
+    EXPECT_LE(summary.writes, 2 + seconds.count());
+    EXPECT_GE(summary.writes, 1);
+  }
+  const auto run = read_format<RunRecord>(out("run.json"));
+  ASSERT_EQ(run.jobs.size(), 120u);
+  for (const auto& [name, standing] : run.jobs) EXPECT_EQ(standing.status, Status::done) << name;
+}
+
+TEST_F(Runner, ADamagedRecordIsDoneAgain) {
+  run_text(two_textures);
+  const std::string whole = read_text(out("e/b/seed1.json"));
+  for (const std::string text : {"", "[]", "{}", "{\"status\": 3}"}) {
+    write_text(out("e/b/seed1.json"), text);
+    EXPECT_EQ(resume(two_textures).done, 1) << text;
+  }
 }
 
 TEST_F(Runner, AStopBetweenJobsLeavesTheRestForResume) {

@@ -160,7 +160,9 @@ TYPED_TEST(EveryTerm, CostsMoreForLargerPictures) {
 TYPED_TEST(EveryTerm, IsInTheEstimate) {
   NeuralParams params = only<TypeParam>(1);
   const auto seconds = [&] {
-    return estimate(params, {128, 128}, 3, {{256, 256}, Tile::both}).seconds;
+    const RequestSize request{
+        .exemplars = {{{128, 128}, 3}}, .size = {256, 256}, .tile = Tile::both};
+    return estimate(params, request).seconds;
   };
   params.iterations = {100};
   const double some = seconds();

@@ -52,6 +52,7 @@ TEST_P(EveryPreset, LowersItsLoss) {
                           steps.push_back(p);
                           return true;
                         },
+                        {},
                         {}};
   const Image result =
       synthesise(params, {{{exemplar}}, {{96, 96}, tile}, Random(3)}, control).image;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "io/image_file.h"
 #include "io/temp_folder.h"
 #include "io/text_file.h"
@@ -59,10 +60,11 @@ class PageData : public TempFolder {
 };
 
 TEST_F(PageData, HoldsWhatTheFolderHolds) {
-  write_run({{"brick/q/seed1", {{"status", "done"}}}},
-            {{"set", {"size=4"}},
-             {"settings", {{"exemplar", {{{"name", "brick"}, {"image", "../data/brick.png"}}}}}},
-             {"diversity", {{{"exemplar", "brick"}, {"method", "q"}, {"seeds", {1}}, {"value", 0.5}}}}});
+  write_run(
+      {{"brick/q/seed1", {{"status", "done"}}}},
+      {{"set", {"size=4"}},
+       {"settings", {{"exemplar", {{{"name", "brick"}, {"image", "../data/brick.png"}}}}}},
+       {"diversity", {{{"exemplar", "brick"}, {"method", "q"}, {"seeds", {1}}, {"value", 0.5}}}}});
   write_job("brick/q/seed1",
             {{"files", {"seed1.png", "seed1_height.png"}}, {"copy_map", "brick/q/map.png"}});
   for (const std::string name :
@@ -142,6 +144,33 @@ TEST_F(PageData, JobsThatDidNotComeOutHaveTheirPlace) {
   EXPECT_THAT(data["trouble"][0].get<std::string>(), HasSubstr("e/lost/seed1.png"));
   EXPECT_EQ(data["exemplars"][0]["picture"], Json());
   EXPECT_EQ(error(), "") << "a page all the same";
+}
+
+TEST_F(PageData, TheCommandOfAJobIsThatOfItsOwnRecord) {
+  write_run({{"e/q/seed1", {{"status", "done"}}}, {"e/q/seed2", {{"status", "done"}}}},
+            {{"config_text", "size = 4"}, {"set", {"size=9"}}, {"machine", {{"threads", 8}}}});
+  write_job("e/q/seed1", {{"config", "old.toml"},
+                          {"config_hash", hash_of("size = 3")},
+                          {"set", {"size=5"}},
+                          {"machine", {{"threads", 3}}}});
+  write_job("e/q/seed2");
+  const Json data = read();
+  EXPECT_EQ(data["jobs"][0]["origin"],
+            (Json{{"config", "old.toml"}, {"set", {"size=5"}}, {"threads", 3}, {"edited", true}}));
+  EXPECT_EQ(data["jobs"][1]["origin"], (Json{{"config", "configs/walls.toml"},
+                                             {"set", {"size=9"}},
+                                             {"threads", 8},
+                                             {"edited", false}}))
+      << "a record of before: what the run says";
+}
+
+TEST_F(PageData, TheRecordsHoldWhereARunWasKilledBeforeItSaidSo) {
+  write_run(
+      {{"e/q/seed1", {{"status", "waiting"}}}},
+      {{"diversity", {{{"exemplar", "e"}, {"method", "q"}, {"seeds", {1, 2}}, {"value", 0.5}}}}});
+  write_job("e/q/seed1");
+  EXPECT_EQ(read()["jobs"][0]["status"], "done");
+  EXPECT_EQ(read()["diversity"], Json::array()) << "of textures that are no longer there";
 }
 
 TEST_F(PageData, NoNameLeadsOutOfTheFolder) {
