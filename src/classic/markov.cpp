@@ -139,13 +139,13 @@ Texture synthesise(const MarkovParams& params, const Request& request, const Con
       }
   }
 
-  const auto channels = static_cast<std::size_t>(exemplar.channels);
-  Image result(target.size, exemplar.channels);
-  for (int y = 0; y < result.height; ++y)
-    for (int x = 0; x < result.width; ++x)
-      std::copy_n(exemplar.pixels.data() + canvas.source(x + left, y + top) * channels, channels,
-                  result.at(x, y));
-  return {std::move(result), {}};
+  SourceMap source(target.size);
+  for (int y = 0; y < target.size.height; ++y)
+    for (int x = 0; x < target.size.width; ++x) {
+      const auto drawn = static_cast<int>(canvas.source(x + left, y + top));
+      *source.at(x, y) = {drawn % exemplar.width, drawn / exemplar.width};
+    }
+  return copied(std::move(source), request.exemplars);
 }
 
 Cost estimate(const MarkovParams& params, const RequestSize& request) {
@@ -155,7 +155,7 @@ Cost estimate(const MarkovParams& params, const RequestSize& request) {
   const double in = static_cast<double>(exemplar.width) * exemplar.height;
   const double out =
       static_cast<double>(request.size.width + margin) * (request.size.height + margin);
-  return {4 * channels * (in + out) + in * (9 + 3 * params.order) + 4 * out,
+  return {4 * channels * (in + out) + in * (9 + 3 * params.order) + (4 + sizeof(Source)) * out,
           in * (1e-8 * params.order + 1e-9 * params.colours * channels) +
               out * 4e-8 * (1 + params.order)};
 }

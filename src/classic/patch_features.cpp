@@ -75,15 +75,16 @@ Image halved(const Image& image) {
   return half;
 }
 
+int mirrored(int i, int length) {
+  i %= 2 * length;
+  return i < length ? i : 2 * length - 1 - i;
+}
+
 Image at_least(const Image& image, int side) {
-  const auto mirror = [](int i, int length) {
-    i %= 2 * length;
-    return i < length ? i : 2 * length - 1 - i;
-  };
   Image result(std::max(image.width, side), std::max(image.height, side), image.channels);
   for (int y = 0; y < result.height; ++y)
     for (int x = 0; x < result.width; ++x)
-      std::copy_n(image.at(mirror(x, image.width), mirror(y, image.height)), image.channels,
+      std::copy_n(image.at(mirrored(x, image.width), mirrored(y, image.height)), image.channels,
                   result.at(x, y));
   return result;
 }

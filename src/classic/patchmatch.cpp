@@ -105,18 +105,19 @@ bool is_small(const Level& level) {
   return area(level.texture) * area(level.exemplar.size()) < 2e7;
 }
 
-/// Copies pixel by pixel from the exemplar.
-Image picked(const Image& exemplar, const std::vector<PatchOrigin>& pixels, Size chosen,
-             Size wanted) {
-  Image result(wanted, exemplar.channels);
+/// The sources of a texture, cut from what was chosen, of this size: a pixel beyond the exemplar is
+/// the mirror image of one inside.
+SourceMap sources_of(const std::vector<PatchOrigin>& pixels, Size chosen, Size wanted,
+                     Size exemplar) {
+  SourceMap sources(wanted);
   for (int y = 0; y < wanted.height; ++y)
     for (int x = 0; x < wanted.width; ++x) {
       const PatchOrigin from =
           pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(chosen.width) +
                  static_cast<std::size_t>(x)];
-      std::copy_n(exemplar.at(from.x, from.y), exemplar.channels, result.at(x, y));
+      *sources.at(x, y) = {mirrored(from.x, exemplar.width), mirrored(from.y, exemplar.height)};
     }
-  return result;
+  return sources;
 }
 
 }  // namespace
@@ -159,7 +160,7 @@ Texture synthesise(const PatchmatchParams& params, const Request& request, const
     }
   }
   const auto pixels = choose_pixels(field, canvas, levels.front().exemplar);
-  return {picked(source, pixels, size, target.size), {}};
+  return copied(sources_of(pixels, size, target.size, exemplar.size()), request.exemplars);
 }
 
 Cost estimate(const PatchmatchParams& params, const RequestSize& request) {
@@ -173,7 +174,8 @@ Cost estimate(const PatchmatchParams& params, const RequestSize& request) {
       area(request.size.width + exemplar.width, request.size.height + exemplar.height);
   // A level has a quarter of the work of the next finer one, but more iterations.
   const double iterations = params.iterations * 4.0 / 3 + more_iterations * 4.0 / 9;
-  return {.bytes = pixels * (72 + 4.0 * channels) + samples * (32 + 4.0 * channels) + shifts * 8,
+  return {.bytes = pixels * (72 + sizeof(Source) + 4.0 * channels) +
+                   samples * (32 + 4.0 * channels) + shifts * 8,
           .seconds = pixels * iterations * (60 + 25.0 * params.tries) * 1e-9};
 }
 

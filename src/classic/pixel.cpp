@@ -28,8 +28,8 @@ Texture synthesise(const PixelParams& params, const Request& request, const Cont
   check_request<PixelParams>(request);
   const Image& exemplar = request.exemplars.front().image;
   const Target& target = request.target;
-  return {pixel::colours_of(sources(params, exemplar, target, request.random, control), exemplar),
-          {}};
+  return copied(pixel::sources_of(sources(params, exemplar, target, request.random, control)),
+                request.exemplars);
 }
 
 Cost estimate(const PixelParams& params, const RequestSize& request) {
@@ -45,7 +45,7 @@ Cost estimate(const PixelParams& params, const RequestSize& request) {
   Cost cost;
   // Levels, features and lists of like samples while they are made; canvases, colours and result.
   cost.bytes = from * (8 * channels + 16 * compared + 64 + 20 * candidates + 8) +
-               to * (4 * channels + 4 * compared + 40) + 5e6;
+               to * (4 * channels + 4 * compared + 40 + sizeof(Source)) + 5e6;
   // Fitted to runs on two cores.
   const double trials = params.algorithm == PixelAlgorithm::lefebvre_hoppe ? params.passes : 1;
   if (params.search == PixelSearch::exact)

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/threads.h"
-
 namespace gramloom::pixel {
 
 bool Canvas::wrap(int& x, int& y) const {
@@ -28,16 +26,11 @@ Canvas refined(const Canvas& coarse, const Level& from, const Level& to, Size si
   return canvas;
 }
 
-Image colours_of(const Canvas& canvas, const Image& exemplar) {
-  Image result(canvas.size, exemplar.channels);
-  parallel_for(canvas.size.height, 16, [&](std::int64_t begin, std::int64_t end) {
-    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
-      for (int x = 0; x < canvas.size.width; ++x) {
-        const Point p = canvas.at(x, y);
-        std::copy_n(exemplar.at(p.x, p.y), exemplar.channels, result.at(x, y));
-      }
-  });
-  return result;
+SourceMap sources_of(const Canvas& canvas) {
+  SourceMap sources(canvas.size);
+  std::ranges::transform(canvas.source, sources.pixels.begin(),
+                         [](Point p) { return Source(p.x, p.y); });
+  return sources;
 }
 
 }  // namespace gramloom::pixel

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "classic/pixel_levels.h"
-#include "core/image.h"
+#include "core/request.h"
 
 namespace gramloom::pixel {
 
@@ -35,7 +35,7 @@ Size size_at(Size size, int level);
 /// The next finer canvas: the source of each pixel becomes those of 2×2 pixels.
 Canvas refined(const Canvas& coarse, const Level& from, const Level& to, Size size);
 
-/// The pixels of the exemplar that the canvas names.
-Image colours_of(const Canvas& canvas, const Image& exemplar);
+/// The pixels of the exemplar that a canvas of level 0 names.
+SourceMap sources_of(const Canvas& canvas);
 
 }  // namespace gramloom::pixel

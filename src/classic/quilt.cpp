@@ -46,6 +46,7 @@ struct Work {
   PatchReuse reuse;
   const QuiltGuide* guide;
   Image canvas;
+  SourceMap source;
   Buffers buffers;
 
   Size patch() const { return {x.patch, y.patch}; }
@@ -148,7 +149,10 @@ Choice lay(Work& work, const PatchSlot& slot, Random random) {
   std::size_t i = 0;
   for (int y = 0; y < patch.height; ++y)
     for (int x = 0; x < patch.width; ++x, ++i) {
-      float* pixel = work.canvas.at((left + x) % work.canvas.width, (top + y) % work.canvas.height);
+      const int column = (left + x) % work.canvas.width, row = (top + y) % work.canvas.height;
+      if (weights[i] >= 0.5f)
+        *work.source.at(column, row) = {chosen.origin.x + x, chosen.origin.y + y};
+      float* pixel = work.canvas.at(column, row);
       const float *from = old.at(x, y), *to = fresh.at(x, y);
       for (int c = 0; c < old.channels; ++c)
         pixel[c] = weights[i] >= 1 ? to[c]
@@ -175,6 +179,7 @@ Quilt lay_quilt(const Image& exemplar, const PatchAxis& x, const PatchAxis& y,
             std::move(reuse),
             guide,
             Image(x.length, y.length, exemplar.channels),
+            SourceMap({x.length, y.length}),
             {}};
   double error = 0;
   std::int64_t laid = 0;
@@ -193,7 +198,7 @@ Quilt lay_quilt(const Image& exemplar, const PatchAxis& x, const PatchAxis& y,
     laid += static_cast<std::int64_t>(wave.size());
     report(laid);
   }
-  return {std::move(work.canvas), error / static_cast<double>(laid)};
+  return {std::move(work.canvas), std::move(work.source), error / static_cast<double>(laid)};
 }
 
 Image best_quilt(const Image& exemplar, const PatchAxis& x, const PatchAxis& y,

@@ -5,8 +5,8 @@
 
 #include "classic/patch_grid.h"
 #include "classic/quilt_guide.h"
-#include "core/image.h"
 #include "core/random.h"
+#include "core/request.h"
 
 namespace gramloom {
 
@@ -21,6 +21,7 @@ struct QuiltRules {
 
 struct Quilt {
   Image canvas;
+  SourceMap source;  // of each pixel: the piece that it is of; where two blend, the stronger one's
   double error = 0;  // of the patches when they were laid, per pixel in terms of the variance
 };
 

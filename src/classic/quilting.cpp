@@ -70,7 +70,7 @@ Texture synthesise(const QuiltingParams& params, const Request& request, const C
   Quilt quilt =
       lay_quilt(exemplar, grid.x, grid.y, rules, guide ? &*guide : nullptr,
                 request.random.stream(1), [&](std::int64_t laid) { control.step(laid, patches); });
-  return {std::move(quilt.canvas), {}};
+  return {std::move(quilt.canvas), {}, std::move(quilt.source)};
 }
 
 Cost estimate(const QuiltingParams& params, const RequestSize& request) {
@@ -85,7 +85,7 @@ Cost estimate(const QuiltingParams& params, const RequestSize& request) {
   const double overlap = x.before(x.count() - 1) + y.before(y.count() - 1);
   const double cuts = overlap * (x.patch + y.patch) * (channels + 3) * params.candidates;
   const double guide = params.guidance > 0 ? attempts / 16.0 : 0;  // in quilts
-  return {.bytes = 4 * channels * (5 * pixels + result + guide * result) +
+  return {.bytes = 4 * channels * (5 * pixels + result + guide * result) + sizeof(Source) * result +
                    (8 + 4.0 * thread_count()) * pixels,
           .seconds =
               patches * (pixels * (8 + 0.25 * overlap * channels) * (1 + guide / 4) + cuts) * 1e-9};

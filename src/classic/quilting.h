@@ -85,7 +85,8 @@ struct QuiltingParams {
   }
 };
 
-/// The texture. An exemplar smaller than a patch makes the patches smaller.
+/// The texture. An exemplar smaller than a patch makes the patches smaller. With `feather`, pixels
+/// along the cuts are blended: their source is that of the piece that they have more of.
 /// Throws Error for an empty exemplar or target, Interrupted when `control` asks to stop.
 Texture synthesise(const QuiltingParams& params, const Request& request, const Control& control);
 

@@ -1,6 +1,7 @@
 #include "core/request.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/threads.h"
 
@@ -31,6 +32,11 @@ Image arranged(const SourceMap& sources, const std::vector<Exemplar>& exemplars)
     }
   });
   return result;
+}
+
+Texture copied(SourceMap source, const std::vector<Exemplar>& exemplars) {
+  Image image = arranged(source, exemplars);
+  return {std::move(image), {}, std::move(source)};
 }
 
 }  // namespace gramloom

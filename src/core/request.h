@@ -131,4 +131,7 @@ struct Texture {
   SourceMap source = {};
 };
 
+/// The texture that `source` makes of the exemplars.
+Texture copied(SourceMap source, const std::vector<Exemplar>& exemplars);
+
 }  // namespace gramloom

@@ -30,7 +30,8 @@ void score_texture(Run& run, const PlannedJob& planned, const JobFiles& files, J
   ExemplarStatistics& exemplar = statistics_of(run, planned.job);
   if (record.settings.value("/exemplar/hash"_json_pointer, "") != run.loaded_hashes.at(0))
     throw Error("the exemplar has changed since the texture was made");
-  const Scores scores = score(exemplar, texture, run.config.tile, shown_work(run));
+  const Scores scores =
+      score(exemplar, texture, run.config.tile, shown_work(run), source_of(run, planned));
   write_image(files.copy_map, scores.copy_map, {});
   record.copy_map = files.copy_map.lexically_relative(run.options.output).generic_string();
   record.metrics = values_of(scores);

@@ -135,6 +135,8 @@ void do_job(Run& run, const PlannedJob& planned, const JobFiles& files, bool kee
     remove_file(files.checkpoint);
   }
   Made made = make_texture(run, work, trace);
+  run.made = &planned;
+  run.source = std::move(made.texture.source);
   record.seconds = trace.seconds();
   record.peak_memory_mb = peak_memory() / 1e6;
   if (made.stopped && keep_old) return;
@@ -200,6 +202,18 @@ std::string reason_to_run(Run& run, const PlannedJob& planned) {
   const Json changes = Json::diff(record->settings, job_settings(run.config, planned.job, inputs));
   if (changes.empty()) return "";
   return fmt::format("{} changed since", changes.front().at("path").get<std::string>().substr(1));
+}
+
+const SourceMap& source_of(Run& run, const PlannedJob& planned) {
+  if (run.made != &planned) {
+    const Method& method = run.config.methods[planned.job.method].method;
+    run.made = nullptr;
+    run.source = {};
+    if (abilities_of(method).has(Ability::source))
+      run.source = run_method(method, request_of(run, planned.job), shown_work(run)).source;
+    run.made = &planned;
+  }
+  return run.source;
 }
 
 Control shown_work(Run& run) {

@@ -29,6 +29,9 @@ struct Run {
   std::vector<ExemplarFile> files = {};               // of that exemplar
   std::optional<ExemplarStatistics> statistics = {};  // of its picture, for the scores
 
+  const PlannedJob* made = nullptr;  // the last job whose texture was made, and
+  SourceMap source = {};             // where the pixels of that came from
+
   bool stopped() const { return options.stop && options.stop(); }
 };
 
@@ -44,6 +47,9 @@ ExemplarStatistics& statistics_of(Run& run, const Job& job);
 /// another machine and other versions of libraries change at most the last bits of what neural
 /// methods make: they stand in the record and are no reason.
 std::string reason_to_run(Run& run, const PlannedJob& planned);
+/// Where the pixels of the job's texture came from, empty where its method does not tell. Of a
+/// texture that an earlier run made, the method is asked once more.
+const SourceMap& source_of(Run& run, const PlannedJob& planned);
 
 /// Shows the progress of work that leaves nothing to keep when the user stops it.
 Control shown_work(Run& run);

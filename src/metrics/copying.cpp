@@ -118,19 +118,27 @@ double coherence(const PatchField& field) {
   return pairs > 0 ? static_cast<double>(together) / static_cast<double>(pairs) : 0;
 }
 
-/// A pixel's colour is that of where the middle of its patch (or the nearest patch's) is from.
-Image draw_map(const PatchField& field, const std::vector<char>& marks, const Image& image,
-               const Image& exemplar) {
+/// Where pixel (x, y) is from, as the middle of its patch (or the nearest patch's) tells.
+PatchOrigin found_origin(const PatchField& field, int x, int y) {
   constexpr int middle = field_patch / 2;
+  const int px = std::clamp(x - middle, 0, field.size.width - 1);
+  const int py = std::clamp(y - middle, 0, field.size.height - 1);
+  const PatchOrigin from = field.nearest[field.index(px, py)];
+  return {from.x + x - px, from.y + y - py};
+}
+
+/// A pixel's colour is that of its source, or where that is not known, of its found origin.
+Image draw_map(const PatchField& field, const SourceMap& source, const std::vector<char>& marks,
+               const Image& image, const Image& exemplar) {
   Image map(image.size(), 3);
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x) {
-      const int px = std::clamp(x - middle, 0, field.size.width - 1);
-      const int py = std::clamp(y - middle, 0, field.size.height - 1);
-      const PatchOrigin from = field.nearest[field.index(px, py)];
-      const float u = static_cast<float>(std::clamp(from.x + x - px, 0, exemplar.width - 1)) /
+      PatchOrigin from = found_origin(field, x, y);
+      if (x < source.size.width && y < source.size.height)
+        from = {source.at(x, y)->x, source.at(x, y)->y};
+      const float u = static_cast<float>(std::clamp(from.x, 0, exemplar.width - 1)) /
                       static_cast<float>(exemplar.width - 1);
-      const float v = static_cast<float>(std::clamp(from.y + y - py, 0, exemplar.height - 1)) /
+      const float v = static_cast<float>(std::clamp(from.y, 0, exemplar.height - 1)) /
                       static_cast<float>(exemplar.height - 1);
       const float light = marks[image.index(x, y) / component_count] == copied ? 1.0f : 1.0f / 3;
       float* out = map.at(x, y);
@@ -143,13 +151,14 @@ Image draw_map(const PatchField& field, const std::vector<char>& marks, const Im
 
 }  // namespace
 
-Copying copying(const Image& exemplar, const PatchTree& tree, const Image& image) {
+Copying copying(const Image& exemplar, const PatchTree& tree, const Image& image,
+                const SourceMap& source) {
   const PatchField field = nearest_patches(image, exemplar, tree);
   const std::vector<char> marks = mark_blocks(field, image, exemplar);
   const auto copies = std::count(marks.begin(), marks.end(), copied);
   const auto all = copies + std::count(marks.begin(), marks.end(), counted);
   return {all > 0 ? static_cast<double>(copies) / static_cast<double>(all) : 0, coherence(field),
-          draw_map(field, marks, image, exemplar)};
+          draw_map(field, source, marks, image, exemplar)};
 }
 
 }  // namespace gramloom

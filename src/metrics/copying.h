@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/image.h"
+#include "core/request.h"
 #include "metrics/patch_tree.h"
 
 namespace gramloom {
@@ -24,8 +24,10 @@ struct Copying {
   Image map;  // see Scores::copy_map
 };
 
-/// Of pictures of components, and the exemplar's tree; the map has their size. Nearest patches as
-/// in nearest_patches.h; blocks lie 4 pixels apart.
-Copying copying(const Image& exemplar, const PatchTree& tree, const Image& image);
+/// Of pictures of components, and the exemplar's tree; the map has their size, and the colours of
+/// `source` where that is not empty. Nearest patches as in nearest_patches.h; blocks lie 4 pixels
+/// apart.
+Copying copying(const Image& exemplar, const PatchTree& tree, const Image& image,
+                const SourceMap& source = {});
 
 }  // namespace gramloom

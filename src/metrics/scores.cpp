@@ -35,7 +35,8 @@ Image cropped(const Image& map, Size size) {
 
 }  // namespace
 
-Scores score(ExemplarStatistics& exemplar, const Image& image, Tile tile, const Control& control) {
+Scores score(ExemplarStatistics& exemplar, const Image& image, Tile tile, const Control& control,
+             const SourceMap& source) {
   check_image(exemplar.exemplar(), image);
   constexpr std::int64_t steps = 7;
   std::int64_t step = 0;
@@ -76,7 +77,7 @@ Scores score(ExemplarStatistics& exemplar, const Image& image, Tile tile, const 
   next_step();
   values.emplace_back("copy_correlation", strongest_correlation(shift_correlation(x, e)));
   next_step();
-  const Copying copies = copying(e, exemplar.tree(), x);
+  const Copying copies = copying(e, exemplar.tree(), x, source);
   values.emplace_back("copied_share", copies.share);
   values.emplace_back("copy_coherence", copies.coherence);
   values.emplace_back("repetition", repeats);

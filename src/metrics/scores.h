@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/image.h"
 #include "core/progress.h"
+#include "core/request.h"
 
 namespace gramloom {
 
@@ -36,7 +36,8 @@ struct Scores {
   std::vector<std::pair<std::string_view, double>> values;
   /// Where each pixel came from, of the image's size with 3 channels in [0, 1]: red grows with the
   /// exemplar's x, green with its y, blue against both. Pixels in copied blocks are at full
-  /// brightness, others at a third.
+  /// brightness, others at a third. Of a picture whose method does not tell, it is the likest
+  /// place.
   Image copy_map;
 };
 
@@ -45,8 +46,10 @@ struct Scores {
 /// tile. The same bytes for any number of threads. Sides under 16 pixels are continued by mirroring
 /// (except for seams). Throws Error for an empty image, more than 64 channels, values that are not
 /// finite, or different numbers of channels; Interrupted when `control` asks to stop.
+/// `source` is what the image's method says of where its pixels are from: the copy map then shows
+/// that instead of the likest places. The scores are the same with and without it.
 Scores score(ExemplarStatistics& exemplar, const Image& image, Tile tile,
-             const Control& control = {});
+             const Control& control = {}, const SourceMap& source = {});
 Scores score(const Image& exemplar, const Image& image, Tile tile, const Control& control = {});
 
 /// What score() is expected to need.

@@ -98,6 +98,7 @@ Texture render(const Shader& shader, const Canvas& canvas, Maps maps = {}) {
       }
     });
   }
+  canvas.control->step(canvas.size.height, canvas.size.height);
   return texture;
 }
 

@@ -114,10 +114,34 @@ TEST_F(RunScores, SheetHasALineForEachJob) {
   EXPECT_EQ(sheet(), lines);
 }
 
+// Red and green of a bright pixel are the place that the method took it from.
+TEST_F(RunScores, CopyMapShowsTheSourcesThatTheMethodTells) {
+  const Config config = parse_config(two_textures, folder_ / "c.toml");
+  run_text(two_textures);
+  const Image exemplar = read_image(folder_ / "e.png").image;
+  const SourceMap source = run_method(config.methods[1].method,
+                                      {{{exemplar}}, {config.size, config.tile}, Random(1)}, {})
+                               .source;
+  const Image map = read_image(out("e/b/seed1.copy_map.png")).image;
+  ASSERT_EQ(map.size(), source.size);
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x) {
+      const Source* from = source.at(x, y);
+      const float u = static_cast<float>(from->x) / static_cast<float>(exemplar.width - 1);
+      const float v = static_cast<float>(from->y) / static_cast<float>(exemplar.height - 1);
+      const float blue = 1 - (u + v) / 2;
+      const float sum = map.at(x, y)[0] + map.at(x, y)[1] + map.at(x, y)[2];
+      const float light = sum / (u + v + blue) > 0.6f ? 1.0f : 1.0f / 3;  // copied blocks, others
+      ASSERT_NEAR(map.at(x, y)[0], light * u, 0.003f) << x << ", " << y;
+      ASSERT_NEAR(map.at(x, y)[1], light * v, 0.003f) << x << ", " << y;
+    }
+}
+
 TEST_F(RunScores, StoppedAtAnyMomentAndResumedTheyAreAllThere) {
   run_text(two_textures, {}, two_seeds);
   const auto whole = record("e/b/seed1").metrics;
   const Json whole_diversity = diversity();
+  const Image whole_map = read_image(out("e/b/seed1.copy_map.png")).image;
   // Each question is a moment: before each job, at each of its steps, at each of its scores'.
   bool unscored = false;
   for (int moments = 1; moments < 200; moments += 3) {
@@ -132,6 +156,7 @@ TEST_F(RunScores, StoppedAtAnyMomentAndResumedTheyAreAllThere) {
     EXPECT_FALSE(rest.unscored);
     ASSERT_EQ(record("e/b/seed1").metrics, whole) << "stopped at question " << moments;
     ASSERT_EQ(diversity(), whole_diversity) << "stopped at question " << moments;
+    ASSERT_EQ(read_image(out("e/b/seed1.copy_map.png")).image, whole_map) << moments;
     if (complete) break;
   }
   EXPECT_TRUE(unscored) << "no stop was in the middle of the last scores";
