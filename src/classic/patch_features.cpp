@@ -5,32 +5,14 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "classic/patch_field.h"
 #include "signal/colour_pca.h"
+#include "signal/patch_field.h"
 
 namespace gramloom {
 
 namespace {
 
 constexpr int components = field_features - 1;
-
-/// Features 0 to 2; the last is left 0.
-void set_components(const Image& image, Image& features) {
-  const ColourPca pca = colour_pca(image);
-  double variance = 0;
-  for (const float deviation : pca.deviation) variance += double{deviation} * double{deviation};
-  const double scale = variance > 0 ? 1 / std::sqrt(variance) : 0;
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      for (int k = 0; k < std::min(components, image.channels); ++k) {
-        const float* axis = pca.axes.data() + k * image.channels;
-        double sum = 0;
-        for (int c = 0; c < image.channels; ++c)
-          sum += double{axis[c]} *
-                 (double{image.at(x, y)[c]} - double{pca.mean[static_cast<std::size_t>(c)]});
-        features.at(x, y)[k] = static_cast<float>(sum * scale);
-      }
-}
 
 void set_structure(Image& features, double weight) {
   const cv::Mat values(features.height, features.width, CV_32FC(field_features),
@@ -57,8 +39,10 @@ void set_structure(Image& features, double weight) {
 }  // namespace
 
 Image patch_features(const Image& image, double structure) {
-  Image features(image.size(), field_features);
-  set_components(image, features);
+  const ColourPca pca = colour_pca(image);
+  const double deviation = total_deviation(pca);
+  Image features =
+      along_axes(image, pca, deviation > 0 ? 1 / deviation : 0, components, field_features);
   set_structure(features, structure);
   return features;
 }
@@ -73,20 +57,6 @@ Image halved(const Image& image) {
             ((above[c] + above[c + image.channels]) + (below[c] + below[c + image.channels])) / 4;
     }
   return half;
-}
-
-int mirrored(int i, int length) {
-  i %= 2 * length;
-  return i < length ? i : 2 * length - 1 - i;
-}
-
-Image at_least(const Image& image, int side) {
-  Image result(std::max(image.width, side), std::max(image.height, side), image.channels);
-  for (int y = 0; y < result.height; ++y)
-    for (int x = 0; x < result.width; ++x)
-      std::copy_n(image.at(mirrored(x, image.width), mirrored(y, image.height)), image.channels,
-                  result.at(x, y));
-  return result;
 }
 
 }  // namespace gramloom

@@ -15,10 +15,4 @@ Image patch_features(const Image& image, double structure);
 /// over pixels (2x, 2y) to (2x + 1, 2y + 1).
 Image halved(const Image& image);
 
-/// Where index `i` ≥ 0 of an axis that is continued by mirroring, its last pixel repeated, lies.
-int mirrored(int i, int length);
-
-/// `image`, continued by mirroring to at least `side` pixels in each direction.
-Image at_least(const Image& image, int side);
-
 }  // namespace gramloom

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "classic/patch_field.h"
 #include "core/image.h"
+#include "signal/patch_field.h"
 
 namespace gramloom {
 

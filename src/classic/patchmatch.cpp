@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "classic/patch_features.h"
-#include "classic/patch_field.h"
-#include "classic/patch_penalty.h"
 #include "classic/patch_vote.h"
 #include "classic/quilting.h"
 #include "core/error.h"
+#include "signal/mirror.h"
+#include "signal/patch_field.h"
+#include "signal/patch_penalty.h"
 
 namespace gramloom {
 

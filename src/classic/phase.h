@@ -7,6 +7,7 @@
 #include "core/fields.h"
 #include "core/progress.h"
 #include "core/request.h"
+#include "signal/random_phase.h"
 
 namespace gramloom {
 
@@ -27,7 +28,7 @@ struct PhaseParams {
   static constexpr std::string_view summary =
       "the exemplar's spectrum with random phases (grain without structure)";
   static constexpr Abilities abilities{Ability::exemplar};
-  double fade = 0.1;
+  double fade = usual_fade;
   static constexpr auto fields() {
     return std::tuple{
         Field{"fade",
@@ -41,13 +42,5 @@ struct PhaseParams {
 /// Throws Error for input that check_request() refuses.
 Texture synthesise(const PhaseParams& params, const Request& request, const Control& control);
 Cost estimate(const PhaseParams& params, const RequestSize& request);
-
-/// The periodic component of each channel of an image (Moisan 2011): the same mean, and opposite
-/// edges that meet.
-Image periodic_component(const Image& image);
-
-/// The image whose spectrum has the moduli of the spot's and random phases: the method's core,
-/// without any change of size or range. Means stay.
-Image random_phase_noise(const Image& spot, Random random);
 
 }  // namespace gramloom

@@ -20,10 +20,8 @@ cv::Mat view(const Image& image) { return view(const_cast<Image&>(image)); }
 /// The exemplar along its principal axes of colour, at most 4, with mean 0 and total variance 1.
 Image comparison_colours(const Image& exemplar) {
   const ColourPca pca = colour_pca(exemplar);
-  double variance = 0;
-  for (const float deviation : pca.deviation)
-    variance += static_cast<double>(deviation) * static_cast<double>(deviation);
-  const double scale = variance > 0 ? 1 / std::sqrt(variance) : 0;
+  const double deviation = total_deviation(pca);
+  const double scale = deviation > 0 ? 1 / deviation : 0;
   Image result =
       extract_channels(whitened(exemplar, pca), 0, std::min(exemplar.channels, most_channels));
   const auto channels = static_cast<std::size_t>(result.channels);

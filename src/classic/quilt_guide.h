@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "classic/overlap.h"
-#include "classic/patch_origin.h"
 #include "core/image.h"
+#include "signal/patch_origin.h"
 
 namespace gramloom {
 

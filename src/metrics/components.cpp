@@ -5,37 +5,22 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "classic/patch_features.h"
-#include "core/threads.h"
+#include "signal/mirror.h"
 
 namespace gramloom {
 
 ColourFrame colour_frame(const Image& exemplar) {
   ColourFrame frame{colour_pca(exemplar), 1};
-  double variance = 0, largest = 0;
-  for (const float d : frame.pca.deviation) variance += double{d} * double{d};
+  double largest = 0;
   for (const float v : exemplar.pixels) largest = std::max(largest, std::abs(double{v}));
-  const double unit = std::max(std::sqrt(variance), 1e-3 * largest);
+  const double unit = std::max(total_deviation(frame.pca), 1e-3 * largest);
   if (unit > 0) frame.scale = 1 / unit;
   return frame;
 }
 
 Image components(const Image& image, const ColourFrame& frame) {
-  Image result(image.size(), component_count);
-  const int used = std::min(component_count, image.channels);
-  parallel_for(image.height, 16, [&](std::int64_t begin, std::int64_t end) {
-    for (auto y = static_cast<int>(begin); y < end; ++y)
-      for (int x = 0; x < image.width; ++x)
-        for (int k = 0; k < used; ++k) {
-          const float* axis = frame.pca.axes.data() + k * image.channels;
-          double sum = 0;
-          for (int c = 0; c < image.channels; ++c)
-            sum += double{axis[c]} * (double{image.at(x, y)[c]} -
-                                      double{frame.pca.mean[static_cast<std::size_t>(c)]});
-          result.at(x, y)[k] = static_cast<float>(sum * frame.scale);
-        }
-  });
-  return at_least(result, smallest_side);
+  return at_least(along_axes(image, frame.pca, frame.scale, component_count, component_count),
+                  smallest_side);
 }
 
 Image smoothly_halved(const Image& components) {

@@ -4,9 +4,9 @@
 #include <numeric>
 #include <vector>
 
-#include "classic/phase.h"
 #include "core/abilities.h"
 #include "core/error.h"
+#include "signal/random_phase.h"
 
 namespace gramloom {
 
@@ -64,8 +64,7 @@ ControlPair control_pair(ControlKind kind, const Image& exemplar, Size size, Ran
     case ControlKind::shuffled:
       return {exemplar, shuffled(exemplar, size, random)};
     case ControlKind::random_phase:
-      return {exemplar,
-              synthesise(PhaseParams{}, {{{exemplar}}, {size}, random}, gramloom::Control{}).image};
+      return {exemplar, random_phase_texture(exemplar, size, Tile::none, usual_fade, random)};
     case ControlKind::tiled:
       return {exemplar, window(exemplar, 0, 0, size)};
     case ControlKind::halves:

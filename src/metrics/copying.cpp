@@ -8,7 +8,7 @@
 #include "core/simd.h"
 #include "core/threads.h"
 #include "metrics/components.h"
-#include "metrics/nearest_patches.h"
+#include "signal/nearest_patches.h"
 
 namespace gramloom {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/request.h"
-#include "metrics/patch_tree.h"
+#include "signal/patch_tree.h"
 
 namespace gramloom {
 

@@ -6,12 +6,12 @@
 
 #include "core/image.h"
 #include "metrics/components.h"
-#include "metrics/patch_tree.h"
 #include "metrics/portilla_simoncelli.h"
 #include "metrics/random_features.h"
 #include "metrics/stsim.h"
 #include "metrics/wasserstein.h"
 #include "signal/correlation.h"
+#include "signal/patch_tree.h"
 
 namespace gramloom {
 

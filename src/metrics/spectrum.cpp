@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "core/threads.h"
 #include "signal/fourier.h"
+#include "signal/window.h"
 
 namespace gramloom {
 
@@ -21,14 +21,9 @@ struct Rings {
   }
 };
 
-/// sin² from 0 at both ends, scaled to a mean square of 1.
+/// Hann's window, scaled to a mean square of 1.
 std::vector<float> hann_window(int length) {
-  std::vector<float> window;
-  for (int i = 0; i < length; ++i) {
-    const double sine = std::sin(std::numbers::pi * (i + 0.5) / length);
-    window.push_back(static_cast<float>(sine * sine / std::sqrt(0.375)));
-  }
-  return window;
+  return scaled_to_energy(raised_cosine(length, 0.5), length);
 }
 
 /// A channel less its mean, faded out towards its edges.

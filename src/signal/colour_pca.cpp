@@ -151,6 +151,33 @@ ColourPca colour_pca(const Image& image) {
   return pca;
 }
 
+double total_deviation(const ColourPca& pca) {
+  double variance = 0;
+  for (const float deviation : pca.deviation) variance += double{deviation} * double{deviation};
+  return std::sqrt(variance);
+}
+
+Image along_axes(const Image& image, const ColourPca& pca, double scale, int axes, int channels) {
+  if (image.channels != pca.channels)
+    throw Error("an image of {} channels does not fit principal axes of {}", image.channels,
+                pca.channels);
+  Image result(image.size(), channels);
+  const int used = std::min({axes, channels, image.channels});
+  parallel_for(image.height, 16, [&](std::int64_t begin, std::int64_t end) {
+    for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
+      for (int x = 0; x < image.width; ++x)
+        for (int k = 0; k < used; ++k) {
+          const float* axis = pca.axes.data() + k * image.channels;
+          double sum = 0;
+          for (int c = 0; c < image.channels; ++c)
+            sum += double{axis[c]} *
+                   (double{image.at(x, y)[c]} - double{pca.mean[static_cast<std::size_t>(c)]});
+          result.at(x, y)[k] = static_cast<float>(sum * scale);
+        }
+  });
+  return result;
+}
+
 Image whitened(const Image& image, const ColourPca& pca) {
   const std::size_t n = pca.mean.size();
   std::vector<float> matrix(n * n);

@@ -22,6 +22,13 @@ struct ColourPca {
 /// magnitude, which is what rounding to float alone can make. Throws Error when the image is empty.
 ColourPca colour_pca(const Image& image);
 
+/// The root of the sum of the variances along all axes.
+double total_deviation(const ColourPca& pca);
+
+/// `scale` times the colours along the first axes, less the mean: an image of `channels` channels,
+/// of which those beyond the image's own stay 0. Throws Error when the numbers of channels differ.
+Image along_axes(const Image& image, const ColourPca& pca, double scale, int axes, int channels);
+
 /// Colours along the axes, each of mean 0 and variance 1 on the image that `pca` was taken from.
 /// Along a flat axis the result is 0. Throws Error when the numbers of channels differ.
 Image whitened(const Image& image, const ColourPca& pca);

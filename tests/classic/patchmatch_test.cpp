@@ -5,10 +5,10 @@
 #include <numeric>
 
 #include "classic/patch_features.h"
-#include "classic/patch_field.h"
 #include "classic/patch_vote.h"
 #include "core/threads.h"
 #include "patch_exemplars.h"
+#include "signal/patch_field.h"
 
 namespace gramloom {
 namespace {

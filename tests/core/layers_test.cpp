@@ -25,7 +25,7 @@ const std::map<std::string, std::set<std::string>> may_include{
     {"classic", {"core", "signal"}},
     {"surface", {"core", "signal"}},
     {"neural", {"core", "signal", "io"}},
-    {"metrics", {"core", "signal", "classic"}},
+    {"metrics", {"core", "signal"}},
     {"runs", {"core", "io"}},
     {"report", {"core", "signal", "io", "metrics", "runs"}},
     {"jobs",

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "metrics/controls.h"
-#include "metrics/nearest_patches.h"
 #include "metrics/pictures.h"
+#include "signal/nearest_patches.h"
 
 namespace gramloom {
 namespace {

@@ -1,4 +1,4 @@
-#include "classic/patch_field.h"
+#include "signal/patch_field.h"
 
 #include <algorithm>
 #include <limits>

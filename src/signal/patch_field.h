@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "classic/patch_penalty.h"
 #include "core/image.h"
 #include "core/random.h"
+#include "signal/patch_penalty.h"
 
 namespace gramloom {
 

@@ -1,16 +1,13 @@
-#include "metrics/nearest_patches.h"
+#include "signal/nearest_patches.h"
 
 #include <limits>
 
 #include "core/simd.h"
 #include "core/threads.h"
-#include "metrics/components.h"
 
 namespace gramloom {
 
 namespace {
-
-static_assert(component_count == field_features);
 
 constexpr int passes = 4;
 constexpr int tries = 4;

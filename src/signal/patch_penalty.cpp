@@ -1,8 +1,8 @@
-#include "classic/patch_penalty.h"
+#include "signal/patch_penalty.h"
 
 #include <algorithm>
 
-#include "classic/patch_field.h"
+#include "signal/patch_field.h"
 
 namespace gramloom {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "classic/patch_origin.h"
 #include "core/image.h"
+#include "signal/patch_origin.h"
 
 namespace gramloom {
 

@@ -1,4 +1,4 @@
-#include "metrics/patch_tree.h"
+#include "signal/patch_tree.h"
 
 #include <algorithm>
 #include <array>
@@ -6,14 +6,11 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "classic/patch_field.h"
-#include "metrics/components.h"
+#include "signal/patch_field.h"
 
 namespace gramloom {
 
 namespace {
-
-static_assert(component_count == field_features);
 
 constexpr std::int64_t leaf_patches = 16;
 
@@ -42,9 +39,9 @@ float value_in(const Image& means, PatchOrigin patch, const Box& box) {
 
 Image box_means(const Image& image) {
   Image result(image.size(), image.channels);
-  const cv::Mat in(image.height, image.width, CV_32FC(component_count),
+  const cv::Mat in(image.height, image.width, CV_32FC(field_features),
                    const_cast<float*>(image.pixels.data()));
-  cv::Mat out(image.height, image.width, CV_32FC(component_count), result.pixels.data());
+  cv::Mat out(image.height, image.width, CV_32FC(field_features), result.pixels.data());
   cv::blur(in, out, {4, 4}, {0, 0}, cv::BORDER_REFLECT);
   return result;
 }
