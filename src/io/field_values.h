@@ -3,12 +3,12 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
 #include "core/fields.h"
 #include "core/image.h"
+#include "io/json_text.h"
 
 namespace gramloom {
 
@@ -60,9 +60,9 @@ std::string allowed_values(const Range& range) {
 /// The value as it is saved with a result. Paths are written relative to `folder`, so that the
 /// bytes do not depend on where the program was called from.
 template <class T>
-nlohmann::ordered_json value_to_json(const T& value, const std::filesystem::path& folder) {
+Json value_to_json(const T& value, const std::filesystem::path& folder) {
   if constexpr (is_optional<T>) {
-    return value ? value_to_json(*value, folder) : nlohmann::ordered_json(nullptr);
+    return value ? value_to_json(*value, folder) : Json(nullptr);
   } else if constexpr (std::is_same_v<T, Size>) {
     return {value.width, value.height};
   } else if constexpr (std::is_same_v<T, double>) {
@@ -74,18 +74,20 @@ nlohmann::ordered_json value_to_json(const T& value, const std::filesystem::path
   } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
     if (value.empty()) return "";
     const auto from = std::filesystem::absolute(folder.empty() ? "." : folder).lexically_normal();
-    return std::filesystem::absolute(value).lexically_proximate(from).generic_string();
+    return valid_utf8(std::filesystem::absolute(value).lexically_proximate(from).generic_string());
   } else if constexpr (std::is_same_v<T, FileOrName>) {
-    if (value.is_name()) return value.generic_string();
+    if (value.is_name()) return valid_utf8(value.generic_string());
     return value_to_json<std::filesystem::path>(value, folder);
   } else if constexpr (std::is_same_v<T, NamedFiles>) {
-    auto files = nlohmann::ordered_json::object();
+    auto files = Json::object();
     for (const auto& [name, file] : value) files[name] = value_to_json(file, folder);
     return files;
   } else if constexpr (is_list<T>) {
-    auto list = nlohmann::ordered_json::array();
+    auto list = Json::array();
     for (const auto& element : value) list.push_back(value_to_json(element, folder));
     return list;
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    return valid_utf8(value);
   } else {
     return value;
   }
@@ -96,7 +98,7 @@ template <class T>
 std::string value_to_text(const T& value) {
   const auto json = value_to_json(value, {});
   if (json.is_null()) return "";
-  return json == "inf" ? "inf" : json.dump();
+  return json == "inf" ? "inf" : to_text(json);
 }
 
 }  // namespace gramloom

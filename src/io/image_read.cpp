@@ -2,30 +2,45 @@
 #include <OpenImageIO/sysutil.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string_view>
 
 #include "core/error.h"
 #include "io/check_finite.h"
+#include "io/image_algorithms.h"
 #include "io/image_file.h"
 #include "io/image_record.h"
 #include "io/pictures_module.h"
 #include "io/png_chunks.h"
+#include "io/quiet_stderr.h"
+#include "io/regular_file.h"
 
 namespace gramloom {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string first_line(std::string text) {
-  text.resize(std::min(text.find('\n'), text.size()));
-  return text;
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+/// The reader that the name's ending suggests, or none.
+std::unique_ptr<OIIO::ImageInput> likely_reader(const fs::path& path) {
+  const std::string ending = path.extension().string();
+  const bool plain = ending.size() > 1 && std::all_of(ending.begin() + 1, ending.end(), [](char c) {
+                       return std::isalnum(static_cast<unsigned char>(c));
+                     });
+  return plain ? OIIO::ImageInput::create("image" + ending) : nullptr;
 }
 
-std::unique_ptr<OIIO::ImageInput> open_image(const fs::path& path) {
+std::unique_ptr<OIIO::ImageInput> open_image(const fs::path& path, const RegularFile& file) {
   OIIO::ImageSpec hints;
   hints.attribute("oiio:UnassociatedAlpha", 1);  // or OpenImageIO multiplies colours by alpha
-  auto input = OIIO::ImageInput::open(path.string(), &hints);
+  auto input = likely_reader(path);
+  OIIO::ImageSpec spec;
+  if (!input || !input->open(file.name(), spec, hints)) {
+    OIIO::geterror();
+    input = OIIO::ImageInput::open(file.name(), &hints);  // by the content
+  }
   if (!input) throw Error("not an image that can be read: {}", first_line(OIIO::geterror()));
   // OpenImageIO's stand-in for tests: black, whatever the file holds.
   if (std::string_view(input->format_name()) == "null") throw Error("not an image");
@@ -52,39 +67,115 @@ void check_header(const OIIO::ImageSpec& spec, std::uintmax_t file_bytes) {
                 spec.width, spec.height, spec.nchannels, values * sizeof(float) / 1e9);
 }
 
-/// OpenImageIO multiplies by a rounded 1 / max; this makes k / max of it, the nearest float.
-void snap(Image& image, float max) {
-  for (float& value : image.pixels) value = std::round(value * max) / max;
-}
-
-Image read_pixels(OIIO::ImageInput& input) {
+/// The values of a whole file, as the type T.
+template <class T>
+std::vector<T> read_all(OIIO::ImageInput& input) {
   const OIIO::ImageSpec spec = input.spec();
-  Image image(spec.width, spec.height, spec.nchannels);
+  std::vector<T> values(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
   const bool complete =
-      input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data());
+      input.read_image(0, 0, 0, spec.nchannels, OIIO::BaseTypeFromC<T>::value, values.data());
   // The JPEG reader fills what is missing with grey and only leaves a message. One of its messages
   // is harmless: bytes between two parts of the file that no part needs.
   const std::string message = first_line(input.geterror());
   if (!complete || (!message.empty() && message.find("extraneous bytes") == std::string::npos))
     throw Error("truncated or damaged{}{}", message.empty() ? "" : ": ", message);
-  if (spec.format == OIIO::TypeDesc::UINT8) snap(image, 255.0f);
-  if (spec.format == OIIO::TypeDesc::UINT16) snap(image, 65535.0f);
-  return image;
+  return values;
+}
+
+OIIO::TypeDesc type_of(const OIIO::ImageSpec& spec, int channel) {
+  return spec.channelformats.empty() ? spec.format : spec.channelformat(channel);
+}
+
+/// Whether OpenImageIO's values are ours: integers of 8 and 16 bits that become 0 to 1, and floats.
+bool is_common(OIIO::TypeDesc type) {
+  return type == OIIO::TypeDesc::UINT8 || type == OIIO::TypeDesc::UINT16 ||
+         type == OIIO::TypeDesc::HALF || type == OIIO::TypeDesc::FLOAT;
+}
+
+/// The number that OpenImageIO makes 1 of, for types whose numbers we keep: heights in metres, say.
+double number_of_one(OIIO::TypeDesc type) {
+  switch (type.basetype) {
+    case OIIO::TypeDesc::INT8:
+      return 127;
+    case OIIO::TypeDesc::INT16:
+      return 32767;
+    case OIIO::TypeDesc::INT32:
+      return 2147483647;
+    case OIIO::TypeDesc::UINT32:
+      return 4294967295;
+    case OIIO::TypeDesc::UINT64:
+    case OIIO::TypeDesc::INT64:
+      throw Error("integers of 64 bits cannot be read; convert it to float or 16 bits");
+    default:
+      return 1;
+  }
+}
+
+/// OpenImageIO multiplies by a rounded 1 / max; this makes k / max of it, the nearest float.
+void snap(std::vector<float>& values, float max) {
+  for (float& value : values) value = std::round(value * max) / max;
+}
+
+/// As floats; `notes` says when they are not what the file holds.
+std::vector<float> read_numbers(OIIO::ImageInput& input, std::vector<std::string>& notes) {
+  const OIIO::ImageSpec spec = input.spec();
+  const auto channels = static_cast<std::size_t>(spec.nchannels);
+  const std::vector<double> values = read_all<double>(input);
+  std::vector<float> floats(values.size());
+  double furthest = 0;
+  for (std::size_t c = 0; c < channels; ++c) {
+    const OIIO::TypeDesc type = type_of(spec, static_cast<int>(c));
+    const double one = number_of_one(type);
+    const bool integer = one > 1;
+    for (std::size_t i = c; i < values.size(); i += channels) {
+      const double number = integer ? std::round(values[i] * one) : values[i];
+      floats[i] = static_cast<float>(number);
+      if (std::isfinite(number) && std::isinf(floats[i]))
+        throw Error("the value {} is beyond what a float holds", number);
+      if (std::isfinite(number)) furthest = std::max(furthest, std::abs(number - floats[i]));
+    }
+  }
+  if (furthest > 0)
+    notes.push_back(fmt::format("{} values were rounded to float, by up to {:.2g}",
+                                spec.format.c_str(), furthest));
+  return floats;
+}
+
+std::vector<float> read_values(OIIO::ImageInput& input, std::vector<std::string>& notes) {
+  const OIIO::ImageSpec spec = input.spec();
+  for (int c = 0; c < spec.nchannels; ++c)
+    if (!is_common(type_of(spec, c))) return read_numbers(input, notes);
+  std::vector<float> values = read_all<float>(input);
+  if (spec.format == OIIO::TypeDesc::UINT8) snap(values, 255.0f);
+  if (spec.format == OIIO::TypeDesc::UINT16) snap(values, 65535.0f);
+  return values;
 }
 
 PixelType pixel_type(OIIO::TypeDesc type) {
-  switch (type.basetype) {
-    case OIIO::TypeDesc::UINT8:
-    case OIIO::TypeDesc::INT8:
-      return PixelType::uint8;
-    case OIIO::TypeDesc::UINT16:
-    case OIIO::TypeDesc::INT16:
-      return PixelType::uint16;
-    case OIIO::TypeDesc::HALF:
-      return PixelType::half;
-    default:
-      return PixelType::float32;
-  }
+  if (type == OIIO::TypeDesc::UINT8) return PixelType::uint8;
+  if (type == OIIO::TypeDesc::UINT16) return PixelType::uint16;
+  if (type == OIIO::TypeDesc::HALF) return PixelType::half;
+  return PixelType::float32;
+}
+
+/// OpenImageIO calls alpha associated unless a reader says otherwise; of these formats it knows.
+bool is_premultiplied(const OIIO::ImageInput& input) {
+  const std::string_view format = input.format_name();
+  const OIIO::ImageSpec& spec = input.spec();
+  return spec.alpha_channel >= 0 && (format == "openexr" || format == "tiff") &&
+         spec.get_int_attribute("oiio:UnassociatedAlpha") == 0;
+}
+
+/// OpenImageIO's reader of WebP multiplies colours by alpha, in 8 bits, whatever it is asked.
+void check_alpha(const OIIO::ImageInput& input, const Image& image) {
+  const int alpha = input.spec().alpha_channel;
+  if (alpha < 0 || std::string_view(input.format_name()) != "webp" ||
+      input.spec().get_int_attribute("oiio:UnassociatedAlpha") != 0)
+    return;
+  for (std::size_t i = static_cast<std::size_t>(alpha); i < image.pixels.size();
+       i += static_cast<std::size_t>(image.channels))
+    if (image.pixels[i] < 1)
+      throw Error("a transparent WebP would lose its colours on the way; convert it to PNG");
 }
 
 /// The texts of a file that isn't ours.
@@ -115,55 +206,58 @@ Image reorder_channels(Image image, const std::vector<std::string>& from,
   return image;
 }
 
-/// Turns and mirrors a picture as the EXIF orientation (1 to 8) says that it is to be seen.
-Image orient(const Image& image, int orientation) {
-  if (orientation < 2 || orientation > 8) return image;
-  const bool transpose = orientation >= 5;
-  const bool flip_x = orientation == 2 || orientation == 3 || orientation >= 7;
-  const bool flip_y = orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7;
-  Image result(transpose ? image.height : image.width, transpose ? image.width : image.height,
-               image.channels);
-  for (int y = 0; y < result.height; ++y)
-    for (int x = 0; x < result.width; ++x) {
-      const int u = transpose ? y : x, v = transpose ? x : y;
-      std::copy_n(image.at(flip_x ? image.width - 1 - u : u, flip_y ? image.height - 1 - v : v),
-                  image.channels, result.at(x, y));
-    }
-  return result;
-}
-
 ImageFile read_open(OIIO::ImageInput& input) {
   const OIIO::ImageSpec spec = input.spec();
   ImageFile file;
-  file.image = read_pixels(input);
+  file.image.width = spec.width;
+  file.image.height = spec.height;
+  file.image.channels = spec.nchannels;
+  file.image.pixels = read_values(input, file.notes);
   check_finite(file.image);
+  check_no_data(file.image);
+  check_alpha(input, file.image);
   file.encoding = {pixel_type(spec.format), spec.get_string_attribute("oiio:ColorSpace"),
-                   spec.channelnames};
+                   spec.channelnames, is_premultiplied(input)};
   const auto record = from_description(spec.get_string_attribute("ImageDescription"));
   if (record && record->channel_names.size() == spec.channelnames.size()) {
     file.image = reorder_channels(std::move(file.image), spec.channelnames, record->channel_names);
     file.encoding.colour_space = record->colour_space;
     file.encoding.channel_names = record->channel_names;
+    file.encoding.premultiplied = record->premultiplied;
     file.metadata = record->metadata;
   } else {
     file.metadata = texts(spec);
   }
-  file.image = orient(file.image, spec.get_int_attribute("Orientation", 1));
+  file.image = pictures::turn(file.image, spec.get_int_attribute("Orientation", 1));
   return file;
+}
+
+/// A library's message with the file's own name where it has the one that we gave.
+std::string with_name(std::string message, const std::string& from, const std::string& to) {
+  for (std::size_t at = message.find(from); at != std::string::npos;
+       at = message.find(from, at + to.size()))
+    message.replace(at, from.size(), to);
+  return message;
 }
 
 }  // namespace
 
 ImageFile pictures::read(const fs::path& path) {
+  std::string opened_as = path.string();
   try {
-    check_png_chunks(path);
-    const auto input = open_image(path);
-    std::error_code ignored;
-    const auto file_bytes = fs::file_size(path, ignored);
-    check_header(input->spec(), ignored ? 0 : file_bytes);
+    const RegularFile file(path);
+    opened_as = file.name();
+    if (file.size() == 0) throw Error("the file is empty");
+    const QuietStderr quiet;
+    check_png_chunks(file.name());
+    const auto input = open_image(path, file);
+    check_header(input->spec(), file.size());
     return read_open(*input);
-  } catch (const std::exception& error) {  // OpenImageIO's readers also let bad_alloc through
-    throw Error("{}: {}", path.string(), first_line(error.what()));
+  } catch (const std::bad_alloc&) {  // OpenImageIO's readers let it through
+    throw Error("{}: out of memory", path.string());
+  } catch (const std::exception& error) {
+    throw Error("{}: {}", path.string(),
+                with_name(first_line(error.what()), opened_as, path.filename().string()));
   }
 }
 

@@ -14,6 +14,7 @@ struct ImageRecord {
   std::vector<std::string> channel_names;  // in the order of the channels in memory
   std::string colour_space;
   Metadata metadata;
+  bool premultiplied = false;  // as in Encoding
 };
 
 /// In ASCII, for the formats that know no other letters.

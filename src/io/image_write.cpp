@@ -2,6 +2,8 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <set>
 #include <string_view>
 
@@ -9,7 +11,9 @@
 #include "io/check_finite.h"
 #include "io/image_file.h"
 #include "io/image_record.h"
+#include "io/json_text.h"
 #include "io/pictures_module.h"
+#include "io/quiet_stderr.h"
 #include "io/text_file.h"
 
 namespace gramloom {
@@ -54,14 +58,20 @@ OIIO::TypeDesc oiio_type(PixelType type) {
   return OIIO::TypeDesc::FLOAT;
 }
 
-const Format& format_of(const OIIO::ImageOutput* output, const fs::path& path) {
+/// OpenImageIO sees the extension alone: in a name, '?' would mean something to it.
+std::unique_ptr<OIIO::ImageOutput> writer_for(const std::string& extension) {
+  const bool plain = extension.find_first_of("?/") == std::string::npos;
+  return plain ? OIIO::ImageOutput::create("image" + extension) : nullptr;
+}
+
+const Format& format_of(const OIIO::ImageOutput* output, const std::string& extension) {
   const auto found = std::find_if(formats.begin(), formats.end(), [&](const Format& format) {
     return output && format.name == output->format_name();
   });
   if (found == formats.end())
     throw Error(
         "no image format that can be written has the extension '{}' (use .png, .tif or .exr)",
-        path.extension().string());
+        extension);
   return *found;
 }
 
@@ -112,10 +122,11 @@ OIIO::ImageSpec make_spec(const Format& format, const Image& image, const Encodi
   const auto alpha = std::find(spec.channelnames.begin(), spec.channelnames.end(), "A");
   spec.alpha_channel =
       alpha == spec.channelnames.end() ? -1 : static_cast<int>(alpha - spec.channelnames.begin());
-  spec.attribute("oiio:UnassociatedAlpha", 1);  // or OpenImageIO divides colours by alpha
+  // Or OpenImageIO divides colours by alpha; a TIFF says which of the two it has.
+  if (format.name != "tiff" || !encoding.premultiplied) spec.attribute("oiio:UnassociatedAlpha", 1);
   if (!encoding.colour_space.empty()) spec.attribute("oiio:ColorSpace", encoding.colour_space);
-  spec.attribute("ImageDescription",
-                 describe(format, {spec.channelnames, encoding.colour_space, metadata}));
+  spec.attribute("ImageDescription", describe(format, {spec.channelnames, encoding.colour_space,
+                                                       metadata, encoding.premultiplied}));
   // An EXIF part in a TIFF needs to read what is already written, which memory here does not allow.
   spec.attribute("tiff:write_exif", 0);
   spec.attribute("DateTime", "");  // or OpenImageIO writes the time of day into TIFF and EXR
@@ -128,30 +139,121 @@ OIIO::ImageSpec make_spec(const Format& format, const Image& image, const Encodi
 
 /// In memory, so that one place (write_text) looks after full disks and half-written files.
 std::string encode(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec, const Image& image,
-                   const fs::path& path) {
+                   const std::string& extension) {
+  const QuietStderr quiet;
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
-  if (!output.set_ioproxy(&memory) || !output.open(path.string(), spec) ||
+  if (!output.set_ioproxy(&memory) || !output.open("image" + extension, spec) ||
       !output.write_image(OIIO::TypeDesc::FLOAT, image.pixels.data()) || !output.close())
     throw Error("cannot be encoded: {}", output.geterror());
   return {bytes.begin(), bytes.end()};
 }
 
+// --- what the file has less of than the image ---------------------------------------------------
+
+/// The values that a type can hold, and by how much one may lie beyond and still only be rounded.
+struct Limits {
+  float low, high, slack;
+};
+Limits limits_of(PixelType type) {
+  switch (type) {
+    case PixelType::uint8:
+      return {0, 1, 0.5f / 255};
+    case PixelType::uint16:
+      return {0, 1, 0.5f / 65535};
+    case PixelType::half:
+      return {-65504, 65504, 0};
+    case PixelType::float32:
+      break;
+  }
+  return {std::numeric_limits<float>::lowest(), std::numeric_limits<float>::max(), 0};
+}
+
+/// Whether values lie beyond what the type holds; then a note says so.
+bool note_clamped(const Image& image, PixelType type, std::vector<std::string>& notes) {
+  const Limits limits = limits_of(type);
+  std::size_t beyond = 0;
+  float least = 0, most = 0;
+  for (const float value : image.pixels) {
+    if (value < limits.low - limits.slack || value > limits.high + limits.slack) ++beyond;
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  if (beyond > 0)
+    notes.push_back(fmt::format(
+        "{:.2g} % of the values, which reach from {:.4g} to {:.4g}, were clamped to {:g} to {:g}",
+        100.0 * static_cast<double>(beyond) / static_cast<double>(image.pixels.size()), least, most,
+        limits.low, limits.high));
+  return beyond > 0;
+}
+
+/// OpenImageIO clamps for integers, and makes infinity of what half cannot hold.
+Image clamp_to_half(Image image) {
+  const Limits limits = limits_of(PixelType::half);
+  for (float& value : image.pixels) value = std::clamp(value, limits.low, limits.high);
+  return image;
+}
+
+void note_coarser_type(const Format& format, PixelType wanted, PixelType stored,
+                       std::vector<std::string>& notes) {
+  const auto bits = [](PixelType type) {
+    return std::array{8, 16, 16, 32}[static_cast<std::size_t>(type)];
+  };
+  if (bits(stored) < bits(wanted))
+    notes.push_back(fmt::format("{} became {}, the best that a {} file has", to_word(wanted),
+                                to_word(stored), format.name));
+}
+
+/// Colours and alpha stay as they are; but other programs expect of each format the one or the
+/// other.
+void note_other_alpha(const Format& format, const OIIO::ImageSpec& spec, const Image& image,
+                      bool premultiplied, std::vector<std::string>& notes) {
+  if (spec.alpha_channel < 0 || format.name == "tiff" ||
+      premultiplied == (format.name == "openexr"))
+    return;
+  const auto channels = static_cast<std::size_t>(image.channels);
+  for (auto i = static_cast<std::size_t>(spec.alpha_channel); i < image.pixels.size();
+       i += channels)
+    if (image.pixels[i] != 1) {
+      notes.push_back(
+          fmt::format("colours are {}multiplied by alpha, which is unusual in a {} file",
+                      premultiplied ? "" : "not ", format.name));
+      return;
+    }
+}
+
 }  // namespace
 
-void pictures::write(const fs::path& path, const Image& image, const Encoding& encoding,
-                     const Metadata& metadata) {
+std::vector<std::string> pictures::write(const fs::path& path, const Image& image,
+                                         const Encoding& encoding, const Metadata& metadata) {
+  const std::string extension = path.extension().string();
+  std::vector<std::string> notes;
   std::string bytes;
   try {
     check_finite(image);
-    const auto output = OIIO::ImageOutput::create(path.string());
-    const Format& format = format_of(output.get(), path);
+    const auto output = writer_for(extension);
+    const Format& format = format_of(output.get(), extension);
     check_fits(format, image);
-    bytes = encode(*output, make_spec(format, image, encoding, metadata), image, path);
+    const OIIO::ImageSpec spec = make_spec(format, image, encoding, metadata);
+    const PixelType stored = format.stored_as[static_cast<std::size_t>(encoding.pixel_type)];
+    note_coarser_type(format, encoding.pixel_type, stored, notes);
+    note_other_alpha(format, spec, image, encoding.premultiplied, notes);
+    const bool clamped = note_clamped(image, stored, notes);
+    bytes = clamped && stored == PixelType::half
+                ? encode(*output, spec, clamp_to_half(image), extension)
+                : encode(*output, spec, image, extension);
+  } catch (const std::bad_alloc&) {
+    throw Error("{}: out of memory", path.string());
   } catch (const std::exception& error) {
-    throw Error("{}: {}", path.string(), error.what());
+    throw Error("{}: {}", path.string(), message_of(error));
   }
   write_text(path, bytes);
+  return notes;
+}
+
+PixelType pictures::stored_type(const std::string& extension, PixelType type) {
+  const auto output = writer_for(extension);
+  return format_of(output.get(), extension).stored_as[static_cast<std::size_t>(type)];
 }
 
 }  // namespace gramloom

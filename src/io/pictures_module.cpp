@@ -3,6 +3,7 @@
 namespace gramloom {
 
 extern "C" const PicturesModule gramloom_pictures_module;
-const PicturesModule gramloom_pictures_module{pictures::read, pictures::write};
+const PicturesModule gramloom_pictures_module{pictures::read, pictures::write,
+                                              pictures::stored_type, pictures::difference};
 
 }  // namespace gramloom

@@ -1,24 +1,35 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
+#include "io/image_algorithms.h"
 #include "io/image_file.h"
 
 namespace gramloom {
 
-/// What of io/ needs OpenImageIO: read_image() and write_image() once it is known that there is
-/// something to read or write (core/modules.h).
+/// What of io/ needs OpenImageIO (core/modules.h): the functions of these names in image_file.h and
+/// image_algorithms.h.
 struct PicturesModule {
   static constexpr std::string_view name = "pictures";
   ImageFile (*read)(const std::filesystem::path& path);
-  void (*write)(const std::filesystem::path& path, const Image& image, const Encoding& encoding,
-                const Metadata& metadata);
+  std::vector<std::string> (*write)(const std::filesystem::path& path, const Image& image,
+                                    const Encoding& encoding, const Metadata& metadata);
+  PixelType (*stored_type)(const std::string& extension, PixelType type);
+  PixelDifference (*difference)(const Image& a, const Image& b, double tolerance);
 };
 
 namespace pictures {
 ImageFile read(const std::filesystem::path& path);
-void write(const std::filesystem::path& path, const Image& image, const Encoding& encoding,
-           const Metadata& metadata);
+std::vector<std::string> write(const std::filesystem::path& path, const Image& image,
+                               const Encoding& encoding, const Metadata& metadata);
+PixelType stored_type(const std::string& extension, PixelType type);
+PixelDifference difference(const Image& a, const Image& b, double tolerance);
+
+/// The picture turned and mirrored as the EXIF orientation (1 to 8; others change nothing) says
+/// that it is to be seen.
+Image turn(const Image& image, int orientation);
 }  // namespace pictures
 
 }  // namespace gramloom

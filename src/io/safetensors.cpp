@@ -6,19 +6,20 @@
 #include <bit>
 #include <cstring>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <tuple>
 
 #include "core/error.h"
+#include "io/json_text.h"
+#include "io/regular_file.h"
 #include "io/text_file.h"
 
 namespace gramloom {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using SortedJson = nlohmann::json;  // and quick to search among thousands of names
 
 static_assert(std::endian::native == std::endian::little, "safetensors files are little-endian");
 
@@ -38,7 +39,7 @@ struct Entry {
 
 struct Header {
   std::vector<Entry> entries;     // in the order of their data
-  Json metadata;                  // null: none
+  SortedJson metadata;            // null: none
   std::uint64_t data_offset = 0;  // of the file
 };
 
@@ -52,10 +53,10 @@ std::optional<std::uint64_t> bytes_of(const std::string& dtype) {
 }
 
 /// One tensor's part of the header; its Errors lack the path.
-Entry parse_entry(const std::string& name, const Json& json) {
+Entry parse_entry(const std::string& name, const SortedJson& json) {
   Entry entry;
   entry.name = name;
-  const auto field = [&](const char* key) -> const Json& {
+  const auto field = [&](const char* key) -> const SortedJson& {
     if (!json.is_object() || !json.contains(key)) throw Error("tensor '{}' has no {}", name, key);
     return json[key];
   };
@@ -63,16 +64,16 @@ Entry parse_entry(const std::string& name, const Json& json) {
   entry.dtype = field("dtype").get<std::string>();
 
   if (!field("shape").is_array()) throw Error("tensor '{}': the shape is not a list", name);
-  for (const Json& side : field("shape")) {
+  for (const SortedJson& side : field("shape")) {
     // A number above 2^63 - 1 is unsigned for the JSON reader.
     if (!side.is_number_integer() || (side.is_number_unsigned() && side > INT64_MAX) || side < 0)
-      throw Error("tensor '{}': {} is not a length in the shape", name, side.dump());
+      throw Error("tensor '{}': {} is not a length in the shape", name, to_text(side));
     entry.shape.push_back(side.get<std::int64_t>());
     if (__builtin_mul_overflow(entry.count, side.get<std::uint64_t>(), &entry.count))
       throw Error("tensor '{}': the shape is too large", name);
   }
 
-  const Json& offsets = field("data_offsets");
+  const SortedJson& offsets = field("data_offsets");
   if (!offsets.is_array() || offsets.size() != 2 || !offsets[0].is_number_unsigned() ||
       !offsets[1].is_number_unsigned())
     throw Error("tensor '{}': data_offsets are not two positions", name);
@@ -107,23 +108,24 @@ void check_offsets(const std::vector<Entry>& entries, std::uint64_t data_bytes) 
     throw Error("{} bytes after the last tensor belong to none", data_bytes - covered);
 }
 
-Json parse_json(const std::string& text) {
+SortedJson parse_header(const std::string& text) {
   std::set<std::string> names;
   std::string duplicate;
-  const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
-    if (event == Json::parse_event_t::key && depth == 1 &&
+  const auto watch = [&](int depth, SortedJson::parse_event_t event, SortedJson& parsed) {
+    if (event == SortedJson::parse_event_t::key && depth == 1 &&
         !names.insert(parsed.get<std::string>()).second)
       duplicate = parsed.get<std::string>();
     return true;
   };
+  SortedJson json;
   try {
-    Json json = Json::parse(text, watch);
-    if (!json.is_object()) throw Error("the header is not a JSON object");
-    if (!duplicate.empty()) throw Error("two tensors are called '{}'", duplicate);
-    return json;
-  } catch (const Json::exception&) {
-    throw Error("the header is not valid JSON");
+    json = parse_json<SortedJson>(text, watch);
+  } catch (const Error& error) {
+    throw Error("the header is not valid JSON: {}", error.what());
   }
+  if (!json.is_object()) throw Error("the header is not a JSON object");
+  if (!duplicate.empty()) throw Error("two tensors are called '{}'", duplicate);
+  return json;
 }
 
 Header read_header(std::ifstream& file, std::uint64_t file_bytes) {
@@ -138,7 +140,7 @@ Header read_header(std::ifstream& file, std::uint64_t file_bytes) {
     throw Error("the header cannot be read");
 
   Header header{.entries = {}, .metadata = {}, .data_offset = length_bytes + length};
-  const Json json = parse_json(text);
+  const SortedJson json = parse_header(text);
   for (const auto& [name, value] : json.items())
     if (name == metadata_key)
       header.metadata = value;
@@ -189,13 +191,11 @@ TensorData read_tensor(std::ifstream& file, const Header& header, const Entry& e
 // f(file, header), with the path in front of errors.
 template <class F>
 auto read_file(const fs::path& path, F&& f) {
-  std::error_code status;
-  const std::uint64_t file_bytes = fs::file_size(path, status);
-  if (status) throw Error("{}: cannot read: {}", path.string(), status.message());
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error("{}: cannot read: {}", path.string(), std::strerror(errno));
   try {
-    return f(file, read_header(file, file_bytes));
+    const RegularFile regular(path);
+    std::ifstream file(regular.name(), std::ios::binary);
+    if (!file) throw Error("cannot read: {}", std::strerror(errno));
+    return f(file, read_header(file, regular.size()));
   } catch (const Error& error) {
     throw Error("{}: {}", path.string(), error.what());
   }
@@ -227,7 +227,7 @@ std::map<std::string, std::string> read_metadata(const fs::path& path) {
 
 void write_tensors(const fs::path& path, const std::map<std::string, TensorData>& tensors,
                    const std::map<std::string, std::string>& metadata) {
-  Json header = Json::object();
+  SortedJson header = SortedJson::object();
   if (!metadata.empty()) header[metadata_key] = metadata;
   std::string data;
   for (const auto& [name, tensor] : tensors) {
@@ -243,7 +243,7 @@ void write_tensors(const fs::path& path, const std::map<std::string, TensorData>
     header[name] = {
         {"dtype", "F32"}, {"shape", tensor.shape}, {"data_offsets", {begin, data.size()}}};
   }
-  std::string text = header.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text = to_text(header);
   text.resize((text.size() + 7) / 8 * 8, ' ');  // the format's padding: the data begins aligned
   const std::uint64_t length = text.size();
   write_text(path,

@@ -1,6 +1,8 @@
 #include "io/text_file.h"
 
 #include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -23,8 +25,9 @@ Error system_error(const fs::path& path, std::string_view what) {
 /// An open file descriptor that closes itself.
 class File {
  public:
+  /// Opening never waits for the other end of a pipe.
   File(const fs::path& path, int flags)
-      : descriptor_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+      : descriptor_(open(path.c_str(), flags | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0666)) {}
   ~File() {
     if (descriptor_ >= 0) close(descriptor_);
   }
@@ -33,6 +36,10 @@ class File {
 
   bool is_open() const { return descriptor_ >= 0; }
   int descriptor() const { return descriptor_; }
+  mode_t mode() const {
+    struct stat status {};
+    return fstat(descriptor_, &status) == 0 ? status.st_mode : 0;
+  }
   /// Some file systems report a full disk only when the file is closed.
   bool close_now() { return close(std::exchange(descriptor_, -1)) == 0; }
 
@@ -40,12 +47,20 @@ class File {
   int descriptor_;
 };
 
+/// After a call that failed: whether to try it again, when there is something to read or room to
+/// write.
+bool wait_for(int descriptor, short event) {
+  if (errno == EINTR) return true;
+  pollfd waiting{descriptor, event, 0};
+  return errno == EAGAIN && (poll(&waiting, 1, -1) > 0 || errno == EINTR);
+}
+
 bool write_all(int descriptor, std::string_view text) {
   // Linux writes at most 2 GB a call.
   constexpr std::size_t most = 1 << 30;
   while (!text.empty()) {
     const ssize_t count = write(descriptor, text.data(), std::min(text.size(), most));
-    if (count < 0 && errno == EINTR) continue;
+    if (count < 0 && wait_for(descriptor, POLLOUT)) continue;
     if (count < 0) return false;
     text.remove_prefix(static_cast<std::size_t>(count));
   }
@@ -81,22 +96,36 @@ void replace_file(const fs::path& path, std::string_view text) {
   if (folder.is_open()) fsync(folder.descriptor());
 }
 
+// /dev/null or a terminal.
+bool is_harmless(int device) {
+  struct stat status {};
+  struct stat null {};
+  return isatty(device) != 0 || (fstat(device, &status) == 0 && stat("/dev/null", &null) == 0 &&
+                                 status.st_rdev == null.st_rdev);
+}
+
 }  // namespace
 
 std::string read_text(const fs::path& path) {
   const File file(path, O_RDONLY);
   if (!file.is_open()) throw system_error(path, "read");
+  // A terminal or nothing may be read; other devices have no end, or wait for an event.
+  if (S_ISBLK(file.mode()) || (S_ISCHR(file.mode()) && !is_harmless(file.descriptor())))
+    throw Error("{}: cannot read: it is a device, not a file", path.string());
   std::error_code ignored;
   const auto size = fs::file_size(path, ignored);  // a pipe has none
   std::string text;
   if (!ignored) text.reserve(size);
+  constexpr std::size_t most = std::size_t{64} << 20;  // of what has no length of its own
   std::string buffer(std::size_t{1} << 20, '\0');
   for (;;) {
     const ssize_t count = read(file.descriptor(), buffer.data(), buffer.size());
-    if (count < 0 && errno == EINTR) continue;
+    if (count < 0 && wait_for(file.descriptor(), POLLIN)) continue;
     if (count < 0) throw system_error(path, "read");
     if (count == 0) return text;
     text.append(buffer, 0, static_cast<std::size_t>(count));
+    if (text.size() > most && !S_ISREG(file.mode()))
+      throw Error("{}: cannot read: more than {} MB come out of it", path.string(), most >> 20);
   }
 }
 

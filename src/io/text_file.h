@@ -6,7 +6,8 @@
 
 namespace gramloom {
 
-/// The whole file, byte for byte. Throws Error with the path: missing, a folder, unreadable.
+/// The whole file, byte for byte. A pipe may be read too, of at most 64 MB; one that nobody writes
+/// to is empty. Throws Error with the path: missing, a folder, a device, unreadable.
 std::string read_text(const std::filesystem::path& path);
 
 /// Writes `text` (any bytes) to `path`, complete or not at all: a temporary file in the same folder

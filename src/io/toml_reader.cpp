@@ -1,6 +1,7 @@
 #include "io/toml_reader.h"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace gramloom {
 
@@ -43,9 +44,54 @@ fs::path folder_of(const toml::source_region& region) {
   return region.path && !is_override(region) ? fs::path(*region.path).parent_path() : fs::path();
 }
 
+constexpr int deepest = 50;
+
+// The end of the text (or comment) that begins at `at`, as TOML has them.
+std::size_t end_of_text(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  if (quote == '#') return std::min(text.find('\n', at), text.size());
+  const std::string_view three = text.substr(at, 3);
+  const bool long_text = three.size() == 3 && three[1] == quote && three[2] == quote;
+  for (at += long_text ? 3 : 1; at < text.size(); ++at) {
+    if (text[at] == '\\' && quote == '"')
+      ++at;
+    else if (long_text ? text.substr(at, 3) == three : text[at] == quote || text[at] == '\n')
+      return at + (long_text ? 3 : 1);
+  }
+  return text.size();
+}
+
+// What works with tables calls itself once a level, toml++ too, and a file must not choose how deep
+// our stack goes: neither by brackets nor by keys of many parts.
+void check_toml_nesting(std::string_view text, const std::string& name) {
+  int brackets = 0;
+  int dots = 0;  // of the key at hand
+  std::uint32_t line = 1;
+  for (std::size_t at = 0; at < text.size();) {
+    const char c = text[at];
+    if (c == '"' || c == '\'' || c == '#') {
+      const std::size_t end = end_of_text(text, at);
+      line += static_cast<std::uint32_t>(
+          std::count(text.begin() + static_cast<std::ptrdiff_t>(at),
+                     text.begin() + static_cast<std::ptrdiff_t>(std::min(end, text.size())), '\n'));
+      at = end;
+      continue;
+    }
+    if (c == '\n') ++line;
+    if (c == '\n' || c == '=' || c == ',') dots = 0;
+    if (c == '.') ++dots;
+    if (c == '[' || c == '{') ++brackets;
+    if (c == ']' || c == '}') --brackets;
+    if (brackets > deepest || dots > deepest)
+      throw ConfigError("{}:{}: nested deeper than {}", name, line, deepest);
+    ++at;
+  }
+}
+
 }  // namespace
 
 toml::table parse_toml(std::string_view text, const std::string& name) {
+  check_toml_nesting(text, name);
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
@@ -57,8 +103,10 @@ toml::table parse_override(std::string_view key, std::string_view text, const st
   const std::string name = std::string(set_option) + option;
   toml::table parsed;
   try {
+    check_toml_nesting(text, name);
     parsed = toml::parse(fmt::format("value = {}", text), name);
   } catch (const toml::parse_error&) {
+  } catch (const ConfigError&) {
   }
   if (parsed.size() != 1) {
     parsed = toml::parse("value = ''", name);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/image_algorithms.h"
 #include "io/image_file.h"
 #include "metrics/scores.h"
 
@@ -11,27 +12,6 @@ namespace gramloom {
 namespace {
 
 namespace fs = std::filesystem;
-
-// How two pictures of the same shape differ.
-struct PixelDifference {
-  double share = 0;    // of the pixels, over the tolerance
-  double largest = 0;  // of any channel
-};
-
-PixelDifference difference(const Image& a, const Image& b, double tolerance) {
-  PixelDifference result;
-  std::size_t count = 0;
-  const auto channels = static_cast<std::size_t>(a.channels);
-  for (std::size_t pixel = 0; pixel < a.pixels.size(); pixel += channels) {
-    double largest = 0;
-    for (std::size_t i = pixel; i < pixel + channels; ++i)
-      largest = std::max(largest, std::abs(double{a.pixels[i]} - double{b.pixels[i]}));
-    if (largest > tolerance) ++count;
-    result.largest = std::max(result.largest, largest);
-  }
-  result.share = static_cast<double>(count * channels) / static_cast<double>(a.pixels.size());
-  return result;
-}
 
 std::string shape_of(const Image& image) {
   return fmt::format("{}×{}, {} channels", image.width, image.height, image.channels);

@@ -20,17 +20,29 @@ void check_size(const ExemplarEntry& entry, const Image& picture, const fs::path
                     picture.width, picture.height);
 }
 
-// Brings a map whose values leave 0 to 1 there; `file` says from where.
+// Brings a map whose values leave 0 to 1 there; `file` says from where. By a power of two, so that
+// whole numbers come back exactly.
 void fit_into_unit_range(Image& map, ExemplarFile& file) {
   const auto [least, most] = std::minmax_element(map.pixels.begin(), map.pixels.end());
   const float low = *least;
   const float high = *most;
   if (low >= 0 && high <= 1) return;
   file.low = low;
-  file.high = high > low
-                  ? high
-                  : low + std::max(1.0f, std::abs(low));  // a flat map has no range of its own
+  const float range = high > low ? high - low : 1;              // a flat map has none of its own
+  const float step = std::max(1.0f, std::abs(low)) * 0x1p-20f;  // that the sum can show
+  file.high = low + std::exp2(std::ceil(std::log2(std::max(range, step))));
   for (float& value : map.pixels) value = (value - file.low) / (file.high - file.low);
+}
+
+// Programs for maps of terrain mark missing data by a number far below all others.
+void note_missing_data(const Image& map, const std::string& file, std::vector<std::string>& notes) {
+  for (const float mark : {-9999.0f, -99999.0f, -32768.0f, -32767.0f})
+    if (const auto count = std::count(map.pixels.begin(), map.pixels.end(), mark);
+        count > 0 && *std::min_element(map.pixels.begin(), map.pixels.end()) == mark)
+      notes.push_back(fmt::format(
+          "{}: {:.2g} % of the values are {}, taken as a number like all others; if it marks "
+          "missing data, fill such places first",
+          file, 100.0 * static_cast<double>(count) / static_cast<double>(map.pixels.size()), mark));
 }
 
 // `image` with the channels of `more` (of its size) after its own.
@@ -58,12 +70,19 @@ MapKind kind_of_map(const ExemplarFile& file) {
 
 LoadedExemplar load_exemplar(const ExemplarEntry& entry) {
   ImageFile picture = read_image(entry.image);
-  LoadedExemplar loaded{{std::move(picture.image)}, {}};
+  LoadedExemplar loaded{{std::move(picture.image)}, {}, {}};
+  const auto keep_notes = [&](const fs::path& path, const std::vector<std::string>& notes) {
+    for (const std::string& note : notes)
+      loaded.notes.push_back(fmt::format("{}: {}", path.filename().string(), note));
+  };
+  keep_notes(entry.image, picture.notes);
   Image& image = loaded.exemplar.image;
   loaded.files.push_back({"", image.channels, std::move(picture.encoding)});
   for (const auto& [name, path] : entry.maps) {
     ImageFile map = read_image(path);
     check_size(entry, image, path, map.image);
+    keep_notes(path, map.notes);
+    note_missing_data(map.image, path.filename().string(), loaded.notes);
     ExemplarFile file{name, map.image.channels, std::move(map.encoding)};
     fit_into_unit_range(map.image, file);
     image = join(image, map.image);

@@ -24,6 +24,7 @@ struct ExemplarFile {
 struct LoadedExemplar {
   Exemplar exemplar;
   std::vector<ExemplarFile> files;
+  std::vector<std::string> notes = {};  // "h.tif: …": where values are not quite those of the files
 };
 
 /// Reads the picture and its maps and scales them to max_side. Throws ConfigError when a map has

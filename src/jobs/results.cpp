@@ -29,17 +29,35 @@ bool can_hold(FileFormat format, int channels) {
   }
 }
 
+// The format of an exemplar's map. An integer file has only 0 to 1: values beyond are scaled.
+OutputFormat format_of_map(const Config& config, const ExemplarFile& file) {
+  OutputFormat format = output_format(config, file.encoding, file.channels);
+  const PixelType stored = stored_type(format.extension, format.encoding.pixel_type);
+  if (stored == PixelType::uint8 || stored == PixelType::uint16) {
+    format.low = file.low;
+    format.high = file.high;
+  }
+  return format;
+}
+
 // Heights and masks have one channel and need finer steps than colours.
 OutputFormat format_of_own_map(const Image& map, const Image& texture, const OutputFormat& format) {
   if (map.channels == texture.channels) return format;
   const PixelType type = format.encoding.pixel_type;
-  return {format.extension, {type == PixelType::uint8 ? PixelType::uint16 : type, "", {}}};
+  return {format.extension, {type == PixelType::uint8 ? PixelType::uint16 : type, "", {}}, 0, 1};
+}
+
+// With the format's `low` as 0 and its `high` as 1.
+Image scaled(Image map, const OutputFormat& format) {
+  if (format.low != 0 || format.high != 1)
+    for (float& value : map.pixels) value = (value - format.low) / (format.high - format.low);
+  return map;
 }
 
 }  // namespace
 
 OutputFormat output_format(const Config& config, const Encoding& exemplar, int channels) {
-  OutputFormat output{"", exemplar};
+  OutputFormat output{"", exemplar, 0, 1};
   if (config.pixel_type) output.encoding.pixel_type = *config.pixel_type;
   const FileFormat format = choose_format(config, output.encoding.pixel_type, channels);
   output.extension = fmt::format(".{}", to_word(format));
@@ -60,30 +78,36 @@ OutputFormats output_formats(const Config& config, const std::vector<ExemplarFil
   const Encoding encoding = files.empty() ? Encoding() : files.front().encoding;
   OutputFormats formats{output_format(config, encoding, texture.image.channels), {}};
   for (const ExemplarFile& file : files)
-    if (!file.map.empty())
-      formats.maps[file.map] = output_format(config, file.encoding, file.channels);
+    if (!file.map.empty()) formats.maps[file.map] = format_of_map(config, file);
   for (const auto& [name, map] : texture.maps)
     if (!formats.maps.contains(name))
       formats.maps[name] = format_of_own_map(map, texture.image, formats.picture);
   return formats;
 }
 
-std::vector<std::string> write_texture(const fs::path& folder, const std::string& name,
-                                       const Texture& texture, const OutputFormats& formats,
-                                       const Json& settings) {
+WrittenTexture write_texture(const fs::path& folder, const std::string& name,
+                             const Texture& texture, const OutputFormats& formats,
+                             const Json& settings) {
   Json made_by{{"gramloom", version()}};
   made_by.update(settings);
-  const Metadata metadata{
-      {"gramloom:settings", made_by.dump(-1, ' ', true, Json::error_handler_t::replace)}};
+  const Metadata metadata{{"gramloom:settings", to_text(made_by, -1, true)}};
 
-  std::vector<std::string> files{name + formats.picture.extension};
-  write_image(folder / files.front(), texture.image, formats.picture.encoding, metadata);
+  WrittenTexture written;
+  const auto write = [&](const std::string& stem, const Image& image, const OutputFormat& format) {
+    const std::string file = stem + format.extension;
+    auto notes = write_image(folder / file, image, format.encoding, metadata);
+    written.files.push_back(file);
+    for (const std::string& note : notes) written.notes.push_back(file + ": " + note);
+    if (format.low != 0 || format.high != 1)
+      written.notes.push_back(
+          fmt::format("{}: 0 stands for {:g} and 1 for {:g}", file, format.low, format.high));
+  };
+  write(name, texture.image, formats.picture);
   for (const auto& [map_name, map] : texture.maps) {
     const OutputFormat& format = formats.maps.at(map_name);
-    files.push_back(fmt::format("{}_{}{}", name, map_name, format.extension));
-    write_image(folder / files.back(), map, format.encoding, metadata);
+    write(fmt::format("{}_{}", name, map_name), scaled(map, format), format);
   }
-  return files;
+  return written;
 }
 
 void write_exemplar(const fs::path& folder, const Exemplar& exemplar,

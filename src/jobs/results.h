@@ -18,6 +18,9 @@ namespace gramloom {
 struct OutputFormat {
   std::string extension;
   Encoding encoding;
+  float low =
+      0;  // the values that become 0 and 1: those of a map beyond, where a file has integers
+  float high = 1;
 };
 OutputFormat output_format(const Config& config, const Encoding& exemplar, int channels);
 
@@ -30,12 +33,18 @@ struct OutputFormats {
 OutputFormats output_formats(const Config& config, const std::vector<ExemplarFile>& files,
                              const Texture& texture);
 
-/// Writes a texture and its maps as `name` + extension and `name`_<map> + extension in `folder`,
-/// and returns the names of the files, the texture's first. Their metadata is the settings and
-/// nothing that differs from run to run.
-std::vector<std::string> write_texture(const std::filesystem::path& folder, const std::string& name,
-                                       const Texture& texture, const OutputFormats& formats,
-                                       const Json& settings);
+/// The names of a texture's files, its own first, and where they have other values than it: "file:
+/// …", a line each.
+struct WrittenTexture {
+  std::vector<std::string> files;
+  std::vector<std::string> notes;
+};
+
+/// Writes a texture and its maps as `name` + extension and `name`_<map> + extension in `folder`.
+/// Their metadata is the settings and nothing that differs from run to run.
+WrittenTexture write_texture(const std::filesystem::path& folder, const std::string& name,
+                             const Texture& texture, const OutputFormats& formats,
+                             const Json& settings);
 
 /// Writes the exemplar of results and its maps as "exemplar" + extension and "exemplar_"<map> +
 /// extension in `folder`. Throws Error.

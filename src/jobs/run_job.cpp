@@ -99,8 +99,12 @@ void write_results(const Run& run, const Work& work, Texture joined, const Trace
                    JobRecord& record) {
   const JobFiles& files = work.files;
   const Texture texture = split_layers(std::move(joined), run.files);
-  record.files = write_texture(files.folder, files.name, texture,
-                               output_formats(run.config, run.files, texture), record.settings);
+  const WrittenTexture written =
+      write_texture(files.folder, files.name, texture,
+                    output_formats(run.config, run.files, texture), record.settings);
+  record.files = written.files;
+  record.notes = run.notes;
+  record.notes.insert(record.notes.end(), written.notes.begin(), written.notes.end());
   record.texture = file_hash(files.folder / record.files.front());
   record.loss = summarise(trace.trace());
   if (record.loss)
@@ -161,6 +165,7 @@ const Request& request_of(Run& run, const Job& job) {
   run.loaded.reset();
   run.request.exemplars.clear();
   run.files.clear();
+  run.notes.clear();
   run.statistics.reset();
   if (job.exemplar) {
     const ExemplarEntry& entry = run.config.exemplars[*job.exemplar];
@@ -170,6 +175,7 @@ const Request& request_of(Run& run, const Job& job) {
                   entry.image.string());
     run.request.exemplars.push_back(std::move(loaded.exemplar));
     run.files = std::move(loaded.files);
+    run.notes = std::move(loaded.notes);
   }
   run.loaded = job.exemplar;
   run.loaded_hashes = std::move(hashes);

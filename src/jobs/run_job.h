@@ -26,7 +26,8 @@ struct Run {
   std::optional<std::size_t> loaded = {};  // which exemplar
   std::vector<std::string> loaded_hashes = {};  // of its files when they were read
   Request request = {};
-  std::vector<ExemplarFile> files = {};               // of that exemplar
+  std::vector<ExemplarFile> files = {};  // of that exemplar
+  std::vector<std::string> notes = {};   // likewise: where its values are not those of the files
   std::optional<ExemplarStatistics> statistics = {};  // of its picture, for the scores
 
   const PlannedJob* made = nullptr;  // the last job whose texture was made, and

@@ -20,12 +20,13 @@ Json fields_to_json(const Struct& value, const fs::path& folder) {
 
 // An exemplar and its maps; files by their name and content, so that it may lie elsewhere.
 Json exemplar_settings(const ExemplarEntry& exemplar, const std::vector<std::string>& hashes) {
-  Json settings{{"image", exemplar.image.filename().string()},
+  Json settings{{"image", valid_utf8(exemplar.image.filename().string())},
                 {"max_side", value_to_json(exemplar.max_side, {})},
                 {"hash", hashes.at(0)}};
   std::size_t layer = 0;
   for (const auto& [name, file] : exemplar.maps)
-    settings["maps"][name] = {{"image", file.filename().string()}, {"hash", hashes.at(++layer)}};
+    settings["maps"][name] = {{"image", valid_utf8(file.filename().string())},
+                              {"hash", hashes.at(++layer)}};
   return settings;
 }
 

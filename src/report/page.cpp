@@ -12,7 +12,7 @@ namespace {
 // JSON inside a script element: without a "<" nothing ends the element or begins a comment.
 std::string script_safe(const Json& data) {
   std::string safe;
-  for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+  for (const char c : to_text(data)) {
     if (c == '<')
       safe += "\\u003c";
     else
@@ -34,7 +34,7 @@ std::filesystem::path write_page(const std::filesystem::path& folder) {
   try {
     write_text(page, page_html(page_data(read_run(folder))) + "\n");
   } catch (const Json::exception& error) {
-    throw Error("{}: holds what no run writes: {}", folder.string(), error.what());
+    throw Error("{}: holds what no run writes: {}", folder.string(), message_of(error));
   }
   return page;
 }

@@ -73,7 +73,7 @@ void read_maps(const RunOnDisk& run, const std::string& name, Source& source, Js
       source.shown["map_pictures"].push_back(
           {{"label", map}, {"file", shown_file(run.folder, file, white)}});
     } catch (const std::exception& error) {
-      trouble.push_back(error.what());
+      trouble.push_back(message_of(error));
     }
   }
 }
@@ -96,7 +96,7 @@ Source read_source(const RunOnDisk& run, const std::string& name, Json& trouble)
                                {"width", exemplar.image.width},
                                {"height", exemplar.image.height}};
   } catch (const std::exception& error) {
-    trouble.push_back(error.what());
+    trouble.push_back(message_of(error));
   }
   return source;
 }
@@ -118,7 +118,7 @@ Json pictures_of(const RunOnDisk& run, const JobOnDisk& job, const Source& sourc
       pictures.push_back(
           {{"label", label}, {"file", shown_file(run.folder, path, source.white_of_view(label))}});
     } catch (const std::exception& error) {
-      trouble.push_back(error.what());
+      trouble.push_back(message_of(error));
     }
   }
   return pictures;

@@ -80,8 +80,9 @@ struct JobRecord {
   std::vector<std::string> files;  // pictures, beside the JSON file; the texture is the first
   std::string texture;             // the hash of the first one's content
   std::string copy_map;  // picture of where pixels came from, relative to the run's folder; or ""
-  double score_seconds = 0;  // apart from `seconds`
-  std::string score_error;   // why a finished texture has no scores; "" where nothing went wrong
+  std::vector<std::string> notes;  // where values of files were changed on the way: one line each
+  double score_seconds = 0;        // apart from `seconds`
+  std::string score_error;  // why a finished texture has no scores; "" where nothing went wrong
 
   static constexpr auto fields() {
     using R = JobRecord;
@@ -108,6 +109,7 @@ struct JobRecord {
         Field{"files", &R::files, "the texture and its maps"},
         Field{"texture", &R::texture, "hash of the texture's file"},
         Field{"copy_map", &R::copy_map, "picture of where pixels came from"},
+        Field{"notes", &R::notes, "where values of files were changed on the way"},
         Field{"score_seconds", &R::score_seconds, "time that scoring took", "s", from_0},
         Field{"score_error", &R::score_error, "why there are no scores"},
     };

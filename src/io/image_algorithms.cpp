@@ -1,0 +1,46 @@
+#include "io/image_algorithms.h"
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+
+#include "core/error.h"
+#include "io/pictures_module.h"
+
+namespace gramloom {
+
+namespace {
+
+OIIO::ImageSpec spec_of(const Image& image) {
+  return {image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT};
+}
+
+// A view of the image's own pixels, which OpenImageIO only reads.
+OIIO::ImageBuf view(const Image& image, const OIIO::ImageSpec& spec) {
+  return {spec, const_cast<float*>(image.pixels.data())};
+}
+
+}  // namespace
+
+Image pictures::turn(const Image& image, int orientation) {
+  if (orientation < 2 || orientation > 8) return image;
+  OIIO::ImageSpec spec = spec_of(image);
+  spec.attribute("Orientation", orientation);
+  const OIIO::ImageBuf turned = OIIO::ImageBufAlgo::reorient(view(image, spec));
+  Image result(turned.spec().width, turned.spec().height, image.channels);
+  if (turned.has_error() ||
+      !turned.get_pixels(turned.roi(), OIIO::TypeDesc::FLOAT, result.pixels.data()))
+    throw Error("cannot be turned: {}", turned.geterror());
+  return result;
+}
+
+PixelDifference pictures::difference(const Image& a, const Image& b, double tolerance) {
+  if (a.size() != b.size() || a.channels != b.channels)
+    throw Error("pictures of different sizes or channels cannot be compared");
+  const auto limit = static_cast<float>(tolerance);
+  const auto found =
+      OIIO::ImageBufAlgo::compare(view(a, spec_of(a)), view(b, spec_of(b)), limit, limit);
+  const double pixels = static_cast<double>(a.width) * a.height;
+  return {static_cast<double>(found.nfail) / pixels, found.maxerror};
+}
+
+}  // namespace gramloom
