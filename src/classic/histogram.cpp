@@ -24,7 +24,7 @@ Texture synthesise(const HistogramParams&, const Request& request, const Control
     }
   });
   control.step(1, 1);
-  return copied(std::move(source), request.exemplars);
+  return texture_of(std::move(source), request.exemplars);
 }
 
 Cost estimate(const HistogramParams&, const RequestSize& request) {

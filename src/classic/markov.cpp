@@ -145,7 +145,7 @@ Texture synthesise(const MarkovParams& params, const Request& request, const Con
       const auto drawn = static_cast<int>(canvas.source(x + left, y + top));
       *source.at(x, y) = {drawn % exemplar.width, drawn / exemplar.width};
     }
-  return copied(std::move(source), request.exemplars);
+  return texture_of(std::move(source), request.exemplars);
 }
 
 Cost estimate(const MarkovParams& params, const RequestSize& request) {

@@ -161,7 +161,7 @@ Texture synthesise(const PatchmatchParams& params, const Request& request, const
     }
   }
   const auto pixels = choose_pixels(field, canvas, levels.front().exemplar);
-  return copied(sources_of(pixels, size, target.size, exemplar.size()), request.exemplars);
+  return texture_of(sources_of(pixels, size, target.size, exemplar.size()), request.exemplars);
 }
 
 Cost estimate(const PatchmatchParams& params, const RequestSize& request) {

@@ -28,8 +28,8 @@ Texture synthesise(const PixelParams& params, const Request& request, const Cont
   check_request<PixelParams>(request);
   const Image& exemplar = request.exemplars.front().image;
   const Target& target = request.target;
-  return copied(pixel::sources_of(sources(params, exemplar, target, request.random, control)),
-                request.exemplars);
+  return texture_of(pixel::sources_of(sources(params, exemplar, target, request.random, control)),
+                    request.exemplars);
 }
 
 Cost estimate(const PixelParams& params, const RequestSize& request) {

@@ -34,7 +34,7 @@ Image arranged(const SourceMap& sources, const std::vector<Exemplar>& exemplars)
   return result;
 }
 
-Texture copied(SourceMap source, const std::vector<Exemplar>& exemplars) {
+Texture texture_of(SourceMap source, const std::vector<Exemplar>& exemplars) {
   Image image = arranged(source, exemplars);
   return {std::move(image), {}, std::move(source)};
 }

@@ -132,6 +132,6 @@ struct Texture {
 };
 
 /// The texture that `source` makes of the exemplars.
-Texture copied(SourceMap source, const std::vector<Exemplar>& exemplars);
+Texture texture_of(SourceMap source, const std::vector<Exemplar>& exemplars);
 
 }  // namespace gramloom

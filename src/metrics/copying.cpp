@@ -135,7 +135,7 @@ Image draw_map(const PatchField& field, const SourceMap& source, const std::vect
     for (int x = 0; x < map.width; ++x) {
       PatchOrigin from = found_origin(field, x, y);
       if (x < source.size.width && y < source.size.height)
-        from = {source.at(x, y)->x, source.at(x, y)->y};
+        from = {static_cast<int>(source.at(x, y)->x), static_cast<int>(source.at(x, y)->y)};
       const float u = static_cast<float>(std::clamp(from.x, 0, exemplar.width - 1)) /
                       static_cast<float>(exemplar.width - 1);
       const float v = static_cast<float>(std::clamp(from.y, 0, exemplar.height - 1)) /
