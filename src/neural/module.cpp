@@ -18,7 +18,7 @@ namespace {
   throw Error("LibTorch: {}", text.substr(0, text.find('\n')));
 }
 
-Texture synthesise(const NeuralParams& params, const Request& request, const Control& control) {
+Texture run(const NeuralParams& params, const Request& request, const Control& control) {
   try {
     return neural::run_synthesis(params, request, control);
   } catch (const c10::Error& error) {
@@ -29,6 +29,6 @@ Texture synthesise(const NeuralParams& params, const Request& request, const Con
 }  // namespace
 
 extern "C" const NeuralModule gramloom_neural_module;
-const NeuralModule gramloom_neural_module{synthesise, neural::measure_blas};
+const NeuralModule gramloom_neural_module{run, neural::measure_blas};
 
 }  // namespace gramloom

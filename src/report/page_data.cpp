@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t trace_points = 300;
 
 // What the folder holds of one exemplar.
-struct Source {
+struct ShownExemplar {
   Json shown;        // its entry in the data
   double white = 1;  // of its picture
   std::map<std::string, double> map_whites;
@@ -63,7 +63,8 @@ Json exemplar_in_config(const RunRecord& run, const std::string& name) {
 }
 
 // The maps of the exemplar that the folder holds.
-void read_maps(const RunOnDisk& run, const std::string& name, Source& source, Json& trouble) {
+void read_maps(const RunOnDisk& run, const std::string& name, ShownExemplar& source,
+               Json& trouble) {
   for (const auto& [map, path] : source.shown["maps"].items()) {
     const std::string file = exemplar_file(run.folder, name, "exemplar_" + map);
     if (file.empty()) continue;
@@ -78,9 +79,9 @@ void read_maps(const RunOnDisk& run, const std::string& name, Source& source, Js
   }
 }
 
-Source read_source(const RunOnDisk& run, const std::string& name, Json& trouble) {
+ShownExemplar read_source(const RunOnDisk& run, const std::string& name, Json& trouble) {
   const Json config = exemplar_in_config(run.run, name);
-  Source source;
+  ShownExemplar source;
   source.shown = {{"name", name},
                   {"picture", nullptr},
                   {"image", config.value("image", Json())},
@@ -108,7 +109,8 @@ std::string label_of(const std::string& job, const std::string& file) {
   return stem.starts_with(own) ? stem.substr(own.size()) : "picture";
 }
 
-Json pictures_of(const RunOnDisk& run, const JobOnDisk& job, const Source& source, Json& trouble) {
+Json pictures_of(const RunOnDisk& run, const JobOnDisk& job, const ShownExemplar& source,
+                 Json& trouble) {
   Json pictures = Json::array();
   for (const std::string& name : job.record.files) {
     try {
@@ -145,7 +147,8 @@ Json origin_of(const RunOnDisk& run, const JobRecord& record) {
           {"edited", edited}};
 }
 
-Json job_to_json(const RunOnDisk& run, const JobOnDisk& job, const Source& source, Json& trouble) {
+Json job_to_json(const RunOnDisk& run, const JobOnDisk& job, const ShownExemplar& source,
+                 Json& trouble) {
   const JobRecord& record = job.record;
   return {{"name", job.name},
           {"exemplar", record.exemplar},
@@ -206,7 +209,7 @@ Json page_data(const RunOnDisk& run) {
   Json exemplars = Json::array();
   std::vector<std::string> methods;
   Json jobs = Json::array();
-  std::map<std::string, Source> sources;
+  std::map<std::string, ShownExemplar> sources;
   for (const JobOnDisk& job : run.jobs) {
     const std::string& exemplar = job.record.exemplar;
     if (!sources.contains(exemplar)) {

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 ImageFile file_of(Image image, const std::string& colour_space = "",
                   PixelType type = PixelType::float32) {
-  return {std::move(image), {type, colour_space, {}}, {}};
+  return {std::move(image), {type, colour_space, {}}, {}, {}};
 }
 
 TEST(Preview, LinearValuesGetTheCurveAndOthersStay) {
