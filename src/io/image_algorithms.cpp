@@ -19,13 +19,32 @@ OIIO::ImageBuf view(const Image& image, const OIIO::ImageSpec& spec) {
   return {spec, const_cast<float*>(image.pixels.data())};
 }
 
+// ImageBufAlgo::reorient() of OpenImageIO 2.4 takes 5 for 7 and 7 for 5.
+OIIO::ImageBuf reoriented(const OIIO::ImageBuf& image, int orientation) {
+  using namespace OIIO::ImageBufAlgo;
+  switch (orientation) {
+    case 2:
+      return flop(image);
+    case 3:
+      return rotate180(image);
+    case 4:
+      return flip(image);
+    case 5:
+      return transpose(image);
+    case 6:
+      return rotate90(image);
+    case 7:
+      return transpose(rotate180(image));
+    default:
+      return rotate270(image);
+  }
+}
+
 }  // namespace
 
 Image pictures::turn(const Image& image, int orientation) {
   if (orientation < 2 || orientation > 8) return image;
-  OIIO::ImageSpec spec = spec_of(image);
-  spec.attribute("Orientation", orientation);
-  const OIIO::ImageBuf turned = OIIO::ImageBufAlgo::reorient(view(image, spec));
+  const OIIO::ImageBuf turned = reoriented(view(image, spec_of(image)), orientation);
   Image result(turned.spec().width, turned.spec().height, image.channels);
   if (turned.has_error() ||
       !turned.get_pixels(turned.roi(), OIIO::TypeDesc::FLOAT, result.pixels.data()))

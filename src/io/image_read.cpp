@@ -69,11 +69,15 @@ void check_header(const OIIO::ImageSpec& spec, std::uintmax_t file_bytes) {
 
 /// The values of a whole file, as the type T.
 template <class T>
+inline constexpr OIIO::TypeDesc::BASETYPE stored_as = OIIO::BaseTypeFromC<T>::value;
+template <>  // OpenImageIO knows this type as char, which may have no sign
+inline constexpr OIIO::TypeDesc::BASETYPE stored_as<std::int8_t> = OIIO::TypeDesc::INT8;
+
+template <class T>
 std::vector<T> read_all(OIIO::ImageInput& input) {
   const OIIO::ImageSpec spec = input.spec();
   std::vector<T> values(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
-  const bool complete =
-      input.read_image(0, 0, 0, spec.nchannels, OIIO::BaseTypeFromC<T>::value, values.data());
+  const bool complete = input.read_image(0, 0, 0, spec.nchannels, stored_as<T>, values.data());
   // The JPEG reader fills what is missing with grey and only leaves a message. One of its messages
   // is harmless: bytes between two parts of the file that no part needs.
   const std::string message = first_line(input.geterror());
@@ -92,22 +96,28 @@ bool is_common(OIIO::TypeDesc type) {
          type == OIIO::TypeDesc::HALF || type == OIIO::TypeDesc::FLOAT;
 }
 
-/// The number that OpenImageIO makes 1 of, for types whose numbers we keep: heights in metres, say.
-double number_of_one(OIIO::TypeDesc type) {
-  switch (type.basetype) {
+template <class T>
+std::vector<double> numbers_of(OIIO::ImageInput& input) {
+  const std::vector<T> values = read_all<T>(input);
+  return {values.begin(), values.end()};
+}
+
+/// The numbers of a type that is not common as they are in the file: heights in metres, say.
+std::vector<double> read_as_stored(OIIO::ImageInput& input) {
+  const OIIO::ImageSpec& spec = input.spec();
+  if (!spec.channelformats.empty()) throw Error("its channels have different types of values");
+  switch (spec.format.basetype) {
     case OIIO::TypeDesc::INT8:
-      return 127;
+      return numbers_of<std::int8_t>(input);
     case OIIO::TypeDesc::INT16:
-      return 32767;
+      return numbers_of<std::int16_t>(input);
     case OIIO::TypeDesc::INT32:
-      return 2147483647;
+      return numbers_of<std::int32_t>(input);
     case OIIO::TypeDesc::UINT32:
-      return 4294967295;
-    case OIIO::TypeDesc::UINT64:
-    case OIIO::TypeDesc::INT64:
-      throw Error("integers of 64 bits cannot be read; convert it to float or 16 bits");
+      return numbers_of<std::uint32_t>(input);
     default:
-      return 1;
+      throw Error("values of type {} cannot be read; convert it to float or 16 bits",
+                  spec.format.c_str());
   }
 }
 
@@ -118,26 +128,16 @@ void snap(std::vector<float>& values, float max) {
 
 /// As floats; `notes` says when they are not what the file holds.
 std::vector<float> read_numbers(OIIO::ImageInput& input, std::vector<std::string>& notes) {
-  const OIIO::ImageSpec spec = input.spec();
-  const auto channels = static_cast<std::size_t>(spec.nchannels);
-  const std::vector<double> values = read_all<double>(input);
-  std::vector<float> floats(values.size());
+  const std::vector<double> numbers = read_as_stored(input);
+  std::vector<float> floats(numbers.size());
   double furthest = 0;
-  for (std::size_t c = 0; c < channels; ++c) {
-    const OIIO::TypeDesc type = type_of(spec, static_cast<int>(c));
-    const double one = number_of_one(type);
-    const bool integer = one > 1;
-    for (std::size_t i = c; i < values.size(); i += channels) {
-      const double number = integer ? std::round(values[i] * one) : values[i];
-      floats[i] = static_cast<float>(number);
-      if (std::isfinite(number) && std::isinf(floats[i]))
-        throw Error("the value {} is beyond what a float holds", number);
-      if (std::isfinite(number)) furthest = std::max(furthest, std::abs(number - floats[i]));
-    }
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    floats[i] = static_cast<float>(numbers[i]);
+    furthest = std::max(furthest, std::abs(numbers[i] - static_cast<double>(floats[i])));
   }
   if (furthest > 0)
     notes.push_back(fmt::format("{} values were rounded to float, by up to {:.2g}",
-                                spec.format.c_str(), furthest));
+                                input.spec().format.c_str(), furthest));
   return floats;
 }
 

@@ -181,7 +181,7 @@ bool note_clamped(const Image& image, PixelType type, std::vector<std::string>& 
   }
   if (beyond > 0)
     notes.push_back(fmt::format(
-        "{:.2g} % of the values, which reach from {:.4g} to {:.4g}, were clamped to {:g} to {:g}",
+        "{:.3g} % of the values, which reach from {:.4g} to {:.4g}, were clamped to {:g} to {:g}",
         100.0 * static_cast<double>(beyond) / static_cast<double>(image.pixels.size()), least, most,
         limits.low, limits.high));
   return beyond > 0;

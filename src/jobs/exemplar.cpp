@@ -40,7 +40,7 @@ void note_missing_data(const Image& map, const std::string& file, std::vector<st
     if (const auto count = std::count(map.pixels.begin(), map.pixels.end(), mark);
         count > 0 && *std::min_element(map.pixels.begin(), map.pixels.end()) == mark)
       notes.push_back(fmt::format(
-          "{}: {:.2g} % of the values are {}, taken as a number like all others; if it marks "
+          "{}: {:.3g} % of the values are {}, taken as a number like all others; if it marks "
           "missing data, fill such places first",
           file, 100.0 * static_cast<double>(count) / static_cast<double>(map.pixels.size()), mark));
 }

@@ -61,7 +61,6 @@ TEST_F(ImageValues, NumbersOfOtherTypesComeAsTheyAre) {
   EXPECT_THAT(read(tiff<std::int32_t>({-2147483647 - 1, -70'000, 1, 16'777'216}, 2)),
               ElementsAre(-2147483648.0f, -70'000, 1, 16'777'216));
   EXPECT_THAT(read(tiff<std::uint32_t>({0, 7, 70'000}, 1)), ElementsAre(0, 7, 70'000));
-  EXPECT_THAT(read(tiff<double>({-1.5, 0.25, 1e6}, 3)), ElementsAre(-1.5f, 0.25f, 1e6f));
 }
 
 TEST_F(ImageValues, WhatAFloatCannotHoldIsSaid) {
@@ -70,12 +69,8 @@ TEST_F(ImageValues, WhatAFloatCannotHoldIsSaid) {
   EXPECT_THAT(file.image.pixels, ElementsAre(5, 16'777'216));
   EXPECT_THAT(file.notes, ElementsAre("uint values were rounded to float, by up to 1"));
   write_text(path("a.tif"), tiff<double>({0.1}, 3));
-  file = read_image(path("a.tif"));
-  EXPECT_THAT(file.image.pixels, ElementsAre(0.1f));
-  EXPECT_THAT(file.notes,
-              ElementsAre(HasSubstr("double values were rounded to float, by up to 1.")));
-  write_text(path("a.tif"), tiff<double>({1e300}, 3));
-  EXPECT_THAT(error_of([&] { read_image(path("a.tif")); }), HasSubstr("1e+300 is beyond what"));
+  EXPECT_THAT(error_of([&] { read_image(path("a.tif")); }),
+              HasSubstr("values of type double cannot be read"));
 }
 
 TEST_F(ImageValues, UnsignedIntegersOf8And16BitsBecome0To1) {

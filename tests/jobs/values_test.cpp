@@ -101,8 +101,10 @@ TEST_F(Values, ADeepOrBrokenRecordIsNoRecord) {
   run_text(two_textures);
   EXPECT_EQ(resume(two_textures).skipped, 2);
   write_text(out("e/b/seed1.json"), std::string(200'000, '[') + std::string(200'000, ']'));
-  write_text(out("run.json"), std::string(200'000, '[') + std::string(200'000, ']'));
   EXPECT_EQ(resume(two_textures).done, 1);
+  // What is no run.json of ours may be somebody's own.
+  write_text(out("run.json"), std::string(200'000, '[') + std::string(200'000, ']'));
+  EXPECT_THROW(resume(two_textures), ConfigError);
 }
 
 }  // namespace
