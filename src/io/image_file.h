@@ -43,8 +43,8 @@ struct ImageFile {
 /// Reads any format that OpenImageIO reads, first subimage, all channels. A camera's note to turn
 /// the picture (EXIF orientation) is followed. Palettes are expanded, CMYK becomes RGB.
 ///
-/// Signed integers, integers of 32 bits and doubles come as the numbers that the file holds, with
-/// the pixel type float, and a note where a float cannot hold them exactly.
+/// Signed integers and integers of 32 bits come as the numbers that the file holds, with the pixel
+/// type float, and a note where a float cannot hold them exactly. Doubles and 64 bits are refused.
 ///
 /// Alpha is a channel like any other: never dropped, and colours come as the file stores them,
 /// neither multiplied nor divided by it. So colour under zero alpha is kept. `premultiplied` says
