@@ -15,13 +15,12 @@
 #include "io/png_chunks.h"
 #include "io/quiet_stderr.h"
 #include "io/regular_file.h"
+#include "io/text_file.h"
 
 namespace gramloom {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 /// The reader that the name's ending suggests, or none.
 std::unique_ptr<OIIO::ImageInput> likely_reader(const fs::path& path) {

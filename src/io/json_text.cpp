@@ -31,8 +31,7 @@ void check_nesting(std::string_view json) {
 std::string message_of(const std::exception& error) {
   const std::string text = error.what();
   const std::size_t end = text.starts_with("[json.") ? text.find("] ") : std::string::npos;
-  const std::string message = end == std::string::npos ? text : text.substr(end + 2);
-  return message.substr(0, message.find('\n'));
+  return first_line(end == std::string::npos ? text : text.substr(end + 2));
 }
 
 Json read_json(const std::filesystem::path& path) {

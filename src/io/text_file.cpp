@@ -106,6 +106,8 @@ bool is_harmless(int device) {
 
 }  // namespace
 
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
 std::string read_text(const fs::path& path) {
   const File file(path, O_RDONLY);
   if (!file.is_open()) throw system_error(path, "read");

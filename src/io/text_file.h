@@ -10,6 +10,9 @@ namespace gramloom {
 /// to is empty. Throws Error with the path: missing, a folder, a device, unreadable.
 std::string read_text(const std::filesystem::path& path);
 
+/// The first line of a message: libraries like to add a stack trace.
+std::string first_line(const std::string& text);
+
 /// Writes `text` (any bytes) to `path`, complete or not at all: a temporary file in the same folder
 /// (".NAME.PID.COUNT.tmp", gone afterwards whatever happens short of SIGKILL) is written, flushed
 /// to the disk and renamed, so a reader sees the old file or the new one. A device or pipe

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "io/text_file.h"
 #include "jobs/interruption.h"
 #include "jobs/memory.h"
 #include "metrics/scores.h"

@@ -50,8 +50,6 @@ ProgressStyle progress_style(bool quiet) {
   return isatty(STDERR_FILENO) ? ProgressStyle::bar : ProgressStyle::lines;
 }
 
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
-
 void print_message(const std::string& line) { put(line + "\n"); }
 
 std::string clock_text(double seconds) {

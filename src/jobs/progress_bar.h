@@ -14,9 +14,6 @@ enum class ProgressStyle { quiet, lines, bar };
 /// A bar where standard error is a terminal, lines elsewhere.
 ProgressStyle progress_style(bool quiet);
 
-/// The first line of what went wrong: libraries like to add a stack trace.
-std::string first_line(const std::string& text);
-
 /// One line on standard error, whatever becomes of it.
 void print_message(const std::string& line);
 

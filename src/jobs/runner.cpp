@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/text_file.h"
 #include "jobs/folder_lock.h"
 #include "jobs/interruption.h"
 #include "jobs/job_scores.h"

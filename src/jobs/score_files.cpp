@@ -4,7 +4,7 @@
 
 #include "io/image_file.h"
 #include "io/json_text.h"
-#include "jobs/progress_bar.h"
+#include "io/text_file.h"
 #include "jobs/text_table.h"
 #include "metrics/controls.h"
 #include "metrics/exemplar_statistics.h"

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "io/text_file.h"
 
 namespace gramloom {
 
@@ -15,7 +16,7 @@ namespace {
 [[noreturn]] void rethrow(const c10::Error& error) {
   const std::string text = error.what_without_backtrace();
   if (text.find("allocate memory") != std::string::npos) throw std::bad_alloc();
-  throw Error("LibTorch: {}", text.substr(0, text.find('\n')));
+  throw Error("LibTorch: {}", first_line(text));
 }
 
 Texture run(const NeuralParams& params, const Request& request, const Control& control) {
