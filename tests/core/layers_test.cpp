@@ -23,13 +23,14 @@ const std::map<std::string, std::set<std::string>> may_include{
     {"procedural", {"core"}},
     {"signal", {"core"}},
     {"classic", {"core", "signal"}},
-    {"surface", {"core", "signal"}},
+    {"surface", {"core", "signal", "io"}},
     {"neural", {"core", "signal", "io"}},
     {"metrics", {"core", "signal"}},
     {"runs", {"core", "io"}},
     {"report", {"core", "signal", "io", "metrics", "runs"}},
     {"jobs",
      {"core", "signal", "io", "procedural", "classic", "neural", "surface", "metrics", "runs"}},
+    {"commands", {"core", "io", "surface", "runs", "jobs", "report"}},
 };
 
 TEST(Layers, EachFolderIncludesOnlyWhatLiesBelowIt) {

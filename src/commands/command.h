@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace gramloom {
+
+enum ExitCode { all_done = 0, job_failed = 1, bad_usage = 2, interrupted = 130 };
+
+/// A command of the program: its part of the command line, and what does its work once that is
+/// read. The work throws ConfigError for what the user must change, other exceptions when it fails.
+struct Command {
+  CLI::App* app = nullptr;
+  std::function<ExitCode()> work;
+};
+
+/// Each adds a command to the program's command line. `words` is the command line itself.
+Command add_run(CLI::App& program, const std::vector<std::string>& words);
+Command add_check(CLI::App& program);
+Command add_list(CLI::App& program);
+Command add_score(CLI::App& program);
+Command add_report(CLI::App& program);
+
+/// Writes to standard output. A reader who has gone away is no mistake of ours; else throws Error.
+ExitCode print(const std::string& text);
+
+}  // namespace gramloom

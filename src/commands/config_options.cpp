@@ -1,0 +1,36 @@
+#include "commands/config_options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <thread>
+
+namespace gramloom {
+
+void add_config_options(CLI::App& command, ConfigOptions& options) {
+  command.add_option("config", options.config, "config file (TOML)")->required();
+  command
+      .add_option(
+          "--only", options.only,
+          "only jobs whose exemplar/method or exemplar/method/seedN matches: * stands for any "
+          "letters, ? for one, all else for itself")
+      ->type_name("GLOB");
+  command
+      .add_option("--set", options.set,
+                  "in place of what the config says: a top-level key, a parameter of every "
+                  "method that has it, method.NAME.key or exemplar.NAME.key")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+// Many more threads than cores bring the work to a halt; some more must be allowed, as results of
+// neural methods depend on the number.
+void add_threads(CLI::App& command, int& threads) {
+  const int most = 8 * static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  command.add_option("--threads", threads, "threads; 0: every core")
+      ->type_name("N")
+      ->check(CLI::Range(0, most));
+}
+
+}  // namespace gramloom

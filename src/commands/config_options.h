@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace gramloom {
+
+/// What commands that read a config are told: the file, what is put in its place, and which of its
+/// jobs are meant.
+struct ConfigOptions {
+  std::string config;
+  std::string only;
+  std::vector<std::string> set;
+};
+
+/// `options` must stay where it is until the command line is read.
+void add_config_options(CLI::App& command, ConfigOptions& options);
+
+/// --threads; likewise.
+void add_threads(CLI::App& command, int& threads);
+
+}  // namespace gramloom

@@ -1,0 +1,31 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "commands/command.h"
+#include "jobs/listing.h"
+
+namespace gramloom {
+
+namespace {
+
+ExitCode list_topic(const std::string& chosen) {
+  const auto wanted = [&](std::string_view topic) { return chosen.empty() || chosen == topic; };
+  std::string text;
+  if (wanted("methods")) text += list_methods();
+  if (wanted("networks")) text += list_networks();
+  if (wanted("patterns")) text += list_patterns();
+  if (wanted("metrics")) text += list_metrics();
+  return print(text);
+}
+
+}  // namespace
+
+Command add_list(CLI::App& program) {
+  const auto topic = std::make_shared<std::string>();
+  CLI::App* list = program.add_subcommand("list", "List methods, networks, patterns and metrics");
+  list->add_option("topic", *topic, "one of methods, networks, patterns, metrics")
+      ->check(CLI::IsMember({"methods", "networks", "patterns", "metrics"}));
+  return {list, [topic] { return list_topic(*topic); }};
+}
+
+}  // namespace gramloom

@@ -1,0 +1,149 @@
+#include <malloc.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+
+#include "commands/command.h"
+#include "commands/config_options.h"
+#include "core/error.h"
+#include "core/spinning.h"
+#include "core/threads.h"
+#include "io/text_file.h"
+#include "jobs/baseline_compare.h"
+#include "jobs/config.h"
+#include "jobs/input_files.h"
+#include "jobs/interruption.h"
+#include "jobs/output_guard.h"
+#include "jobs/progress_bar.h"
+#include "jobs/runner.h"
+#include "report/page.h"
+#include "runs/format.h"
+
+namespace gramloom {
+
+namespace {
+
+struct RunArguments {
+  ConfigOptions config;
+  std::string output;
+  int threads = 0;
+  bool resume = false;
+  std::string baseline;
+  bool quiet = false;
+  std::vector<std::string> words;  // the command line itself
+};
+
+// Freed buffers stay with the process: large ones come and go at each step, and faulting them in
+// again costs up to half of the time.
+void keep_large_buffers() {
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, 2147483647);
+}
+
+// What --baseline names, read and checked before any work.
+std::optional<Baseline> earlier_run(const RunArguments& arguments, const RunOptions& options) {
+  if (arguments.baseline.empty()) return std::nullopt;
+  const NothingToKeep scope;
+  try {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(arguments.baseline, options.output, ignored))
+      throw Error("this run would write over it; choose another --output");
+    Baseline baseline = read_baseline(arguments.baseline, options.only);
+    check_baseline(baseline);
+    return baseline;
+  } catch (const Error& error) {
+    throw ConfigError("--baseline {}: {}", arguments.baseline, error.what());
+  }
+}
+
+// Prints what differs from an earlier run and leaves it as baseline.json; whether any of it is for
+// the worse.
+bool got_worse(const Baseline& before, const Config& config, const RunOptions& options,
+               bool quiet) {
+  const NothingToKeep scope;
+  const Baseline now = read_baseline(options.output, options.only);
+  const auto changes = compare(before, now, config.baseline);
+  write_format(options.output / "baseline.json",
+               comparison_record(changes, before, config.baseline));
+  if (!quiet || !changes.empty()) print(change_table(changes, before, now));
+  return count_worse(changes) > 0;
+}
+
+// Writes the page of a run; the results are there whatever becomes of it.
+bool show_run(const std::filesystem::path& folder, ProgressBar& bar) {
+  const NothingToKeep scope;
+  try {
+    bar.message(fmt::format("page: {}", write_page(folder).string()));
+    return true;
+  } catch (const std::exception& error) {
+    bar.complaint(fmt::format("gramloom: no page: {}", first_line(error.what())));
+    return false;
+  }
+}
+
+// Whether the libraries of neural methods, which bring OpenMP's threads, will be at work.
+bool has_neural_jobs(const Config& config) {
+  return std::ranges::any_of(config.methods, [](const MethodEntry& method) {
+    return std::holds_alternative<NeuralParams>(method.method);
+  });
+}
+
+ExitCode run_config(const RunArguments& arguments) {
+  keep_large_buffers();
+  set_thread_count(arguments.threads);
+  const Config config = read_config(arguments.config.config, arguments.config.set);
+  if (has_neural_jobs(config) && std::filesystem::is_regular_file(config.file))
+    bound_spinning(arguments.words);
+  watch_signals();
+  RunOptions options;
+  options.is_default_output = arguments.output.empty();
+  options.output =
+      options.is_default_output ? default_output(config) : std::filesystem::path(arguments.output);
+  options.only = arguments.config.only;
+  options.resume = arguments.resume;
+  options.stop = stop_asked;
+  options.command = arguments.words;
+  const std::optional<Baseline> before = earlier_run(arguments, options);
+  if (before) options.inputs = input_files(*before);
+  ProgressBar bar(progress_style(arguments.quiet));
+  const RunSummary summary = run(config, options, bar);
+  const bool shown = show_run(options.output, bar);
+  if (summary.interrupted + summary.left > 0) {
+    bar.complaint(fmt::format(
+        "gramloom: interrupted, {} of {} jobs are left; --resume goes on",
+        summary.interrupted + summary.left,
+        summary.done + summary.skipped + summary.failed + summary.interrupted + summary.left));
+    return interrupted;
+  }
+  if (summary.unscored) {
+    bar.complaint("gramloom: interrupted, not all textures are scored; --resume goes on");
+    return interrupted;
+  }
+  const bool worse = before && got_worse(*before, config, options, arguments.quiet);
+  return worse || !shown || summary.failed > 0 ? job_failed : all_done;
+}
+
+}  // namespace
+
+Command add_run(CLI::App& program, const std::vector<std::string>& words) {
+  const auto arguments = std::make_shared<RunArguments>();
+  arguments->words = words;
+  CLI::App* run = program.add_subcommand(
+      "run",
+      "Do the jobs of a config. Results of an earlier run into the same folder are replaced "
+      "as each job completes; with --resume, finished ones are kept.");
+  add_config_options(*run, arguments->config);
+  run->add_option("--output", arguments->output, "folder of the results (out/<config's name>)")
+      ->type_name("DIR");
+  add_threads(*run, arguments->threads);
+  run->add_flag("--resume", arguments->resume, "keep finished jobs and go on with unfinished ones");
+  run->add_option("--baseline", arguments->baseline,
+                  "folder of an earlier run: print what differs, by the limits of the config's "
+                  "[baseline]; exit code 1 when something got worse")
+      ->type_name("DIR");
+  run->add_flag("--quiet", arguments->quiet, "show no progress");
+  return {run, [arguments] { return run_config(*arguments); }};
+}
+
+}  // namespace gramloom

@@ -1,0 +1,83 @@
+#include "surface/normal_map.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/threads.h"
+#include "surface/grid.h"
+
+namespace gramloom {
+
+namespace {
+
+constexpr std::int64_t rows_at_once = 16;
+
+template <class F>
+void for_each_row(int height, F&& row) {
+  parallel_for(height, rows_at_once, [&](std::int64_t begin, std::int64_t end) {
+    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) row(y);
+  });
+}
+
+void store_unit(float x, float y, float z, float* to) {
+  const float length = std::sqrt(x * x + y * y + z * z);
+  if (length > 0) {
+    to[0] = x / length;
+    to[1] = y / length;
+    to[2] = z / length;
+  } else {
+    to[0] = to[1] = 0;
+    to[2] = 1;
+  }
+}
+
+}  // namespace
+
+void check_one_channel(const Image& height, const char* what) {
+  if (height.empty()) throw Error("{} is empty", what);
+  if (height.channels != 1) throw Error("{} has {} channels, allowed is 1", what, height.channels);
+}
+
+Image normals_from_height(const Image& height, double strength, Tile wraps) {
+  check_one_channel(height, "a height map");
+  const auto pixels_high = static_cast<float>(strength);
+  Image normals(height.size(), 3);
+  for_each_row(height.height, [&](int y) {
+    for (int x = 0; x < height.width; ++x)
+      // Rows count downwards and v upwards, so −∂h/∂v is the slope along the rows.
+      store_unit(-pixels_high * slope_along_x(height, x, y, wraps),
+                 pixels_high * slope_along_y(height, x, y, wraps), 1, normals.at(x, y));
+  });
+  return normals;
+}
+
+Image normals_to_colours(const Image& normals, GreenAxis green) {
+  const float up = green == GreenAxis::up ? 1.0f : -1.0f;
+  Image picture(normals.size(), 3);
+  for_each_row(normals.height, [&](int y) {
+    for (int x = 0; x < normals.width; ++x) {
+      const float* n = normals.at(x, y);
+      float* colour = picture.at(x, y);
+      colour[0] = (n[0] + 1) / 2;
+      colour[1] = (up * n[1] + 1) / 2;
+      colour[2] = (n[2] + 1) / 2;
+    }
+  });
+  return picture;
+}
+
+Image colours_to_normals(const Image& picture, GreenAxis green) {
+  if (picture.channels < 3)
+    throw Error("a normal map has {} channels, allowed are 3 or more", picture.channels);
+  const float up = green == GreenAxis::up ? 1.0f : -1.0f;
+  Image normals(picture.size(), 3);
+  for_each_row(picture.height, [&](int y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const float* colour = picture.at(x, y);
+      store_unit(2 * colour[0] - 1, up * (2 * colour[1] - 1), 2 * colour[2] - 1, normals.at(x, y));
+    }
+  });
+  return normals;
+}
+
+}  // namespace gramloom
