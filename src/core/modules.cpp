@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "core/error.h"
 
@@ -17,10 +18,20 @@ std::filesystem::path own_folder() {
   return std::filesystem::absolute(own.dli_fname).parent_path();
 }
 
+// Opens, one by one, the libraries named in a file (leaves_first.cmake). The dynamic linker looks a
+// name up in all that are opened at once: by themselves, most libraries need few others, but 250
+// come with a module, which would take twice as long. One that does not open by itself comes with
+// the module, or the linker says there what is wrong.
+void open_libraries(const std::filesystem::path& names) {
+  std::ifstream file(names);
+  for (std::string name; std::getline(file, name);) dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL);
+}
+
 }  // namespace
 
 const void* open_module(std::string_view name) {
   const auto file = own_folder() / fmt::format("libgramloom_{}.so", name);
+  open_libraries(own_folder() / fmt::format("libgramloom_{}.txt", name));
   // Never closed: LibTorch cannot be.
   void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   const void* functions =

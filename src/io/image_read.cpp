@@ -1,8 +1,8 @@
 #include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
 #include <OpenImageIO/sysutil.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <string_view>
 
@@ -22,13 +22,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The reader that the name's ending suggests, or none.
+/// The reader that the name's ending suggests, or none. It is made by the ending alone: given a
+/// name, OpenImageIO would look into a file of that name, with one reader after the other.
 std::unique_ptr<OIIO::ImageInput> likely_reader(const fs::path& path) {
-  const std::string ending = path.extension().string();
-  const bool plain = ending.size() > 1 && std::all_of(ending.begin() + 1, ending.end(), [](char c) {
-                       return std::isalnum(static_cast<unsigned char>(c));
-                     });
-  return plain ? OIIO::ImageInput::create("image" + ending) : nullptr;
+  const std::string ending = OIIO::Strutil::lower(path.extension().string());
+  for (const auto& [format, endings] : OIIO::get_extension_map())
+    for (const std::string& known : endings)
+      if (ending == "." + known) return OIIO::ImageInput::create(known);
+  return nullptr;
 }
 
 std::unique_ptr<OIIO::ImageInput> open_image(const fs::path& path, const RegularFile& file) {

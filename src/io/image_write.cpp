@@ -137,6 +137,17 @@ OIIO::ImageSpec make_spec(const Format& format, const Image& image, const Encodi
   return spec;
 }
 
+/// The values as the file holds them. Of floats OpenImageIO would convert one row after the other,
+/// each with all of its threads, and wait.
+std::vector<std::byte> stored_values(const OIIO::ImageSpec& spec, const Image& image) {
+  std::vector<std::byte> values(spec.image_bytes());
+  OIIO::convert_image(image.channels, image.width, image.height, 1, image.pixels.data(),
+                      OIIO::TypeDesc::FLOAT, OIIO::AutoStride, OIIO::AutoStride, OIIO::AutoStride,
+                      values.data(), spec.format, OIIO::AutoStride, OIIO::AutoStride,
+                      OIIO::AutoStride);
+  return values;
+}
+
 /// In memory, so that one place (write_text) looks after full disks and half-written files.
 std::string encode(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec, const Image& image,
                    const std::string& extension) {
@@ -144,7 +155,7 @@ std::string encode(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec, const
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   if (!output.set_ioproxy(&memory) || !output.open("image" + extension, spec) ||
-      !output.write_image(OIIO::TypeDesc::FLOAT, image.pixels.data()) || !output.close())
+      !output.write_image(spec.format, stored_values(spec, image).data()) || !output.close())
     throw Error("cannot be encoded: {}", output.geterror());
   return {bytes.begin(), bytes.end()};
 }

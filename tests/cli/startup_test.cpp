@@ -22,7 +22,7 @@ class Startup : public Workspace {
                "[[method]]\nname = 'n'\nkind = 'neural'\niterations = 1\npatch_sizes = [3]\n");
   }
 
-  // One line a library that the command loaded, as the dynamic linker reports it.
+  // One line a library that the command loaded, and why, as the dynamic linker reports it.
   std::string libraries(const std::string& arguments, int exit_code = 0) const {
     const Outcome outcome =
         shell(folder_, "LD_DEBUG=files LD_DEBUG_OUTPUT=loaded $GRAMLOOM " + arguments);
@@ -31,8 +31,8 @@ class Startup : public Workspace {
     for (const auto& entry : fs::directory_iterator(folder_)) {
       if (!entry.path().filename().string().starts_with("loaded.")) continue;
       std::istringstream text(read_text(entry.path()));
-      for (std::string line; std::getline(text, line);)
-        if (line.find("generating link map") != std::string::npos) lines += line + "\n";
+      for (std::string line, last; std::getline(text, line); last = line)
+        if (line.find("generating link map") != std::string::npos) lines += last + "\n";
       fs::remove(entry.path());
     }
     EXPECT_NE(lines, "") << arguments;
@@ -68,6 +68,15 @@ TEST_F(Startup, OnlyANeuralJobLoadsLibTorch) {
   EXPECT_TRUE(has_torch(neural));
   EXPECT_TRUE(has_openimageio(neural));
   EXPECT_TRUE(fs::exists(folder_ / "out/neural/e/n/seed1.png"));
+}
+
+TEST_F(Startup, LibrariesOfAModuleAreOpenedByThemselves) {
+  // All at once would take twice as long: see core/modules.cpp.
+  std::istringstream loaded(libraries("run c.toml --quiet"));
+  int by_themselves = 0;
+  for (std::string line; std::getline(loaded, line);)
+    if (line.find("dynamically loaded by") != std::string::npos) ++by_themselves;
+  EXPECT_GT(by_themselves, 50) << loaded.str();
 }
 
 TEST_F(Startup, ErrorsOfAModuleAreErrorsOfTheProgram) {

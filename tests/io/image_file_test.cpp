@@ -1,6 +1,7 @@
 #include "io/image_file.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +53,19 @@ const std::vector<Case> lossless{
     {"exr", PixelType::float32, any},        {"tga", PixelType::uint8, {1, 3, 4}},
     {"bmp", PixelType::uint8, {1, 3, 4}},    {"ppm", PixelType::uint8, {1, 3}},
 };
+
+TEST_F(ImageFiles, NoOtherFileIsLookedInto) {
+  write_image(path("a.png"), picture(3, PixelType::uint8), {});
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(path(""));
+  mkfifo("image.png", 0600);  // whoever reads this waits for ever
+  mkfifo("png", 0600);
+  mkfifo("own", 0600);
+  EXPECT_EQ(read_image("a.png").image.width, 33);
+  std::filesystem::rename("a.png", "a.own");
+  EXPECT_EQ(read_image("a.own").image.width, 33);
+  std::filesystem::current_path(before);
+}
 
 TEST_F(ImageFiles, EveryFormatTypeAndChannelCountComesBackExactly) {
   for (const auto& [extension, type, channels] : lossless)
