@@ -2,18 +2,12 @@
 #include <cmath>
 #include <vector>
 
+#include "core/neighbour.h"
 #include "procedural/render.h"
 
 namespace gramloom {
 
 namespace {
-
-/// The index of a neighbour that may lie outside: the other side's where the picture tiles, else
-/// the edge's.
-int neighbour(int i, int count, bool wraps) {
-  if (wraps) return ((i % count) + count) % count;
-  return std::clamp(i, 0, count - 1);
-}
 
 /// The mean over 2·radius + 1 neighbours along x, written transposed: twice is a blur of both axes.
 Image blur_transposed(const Image& image, int radius, bool wraps) {

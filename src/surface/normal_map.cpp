@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/threads.h"
-#include "surface/grid.h"
+#include "surface/relief.h"
 
 namespace gramloom {
 
@@ -33,20 +33,20 @@ void store_unit(float x, float y, float z, float* to) {
 
 }  // namespace
 
-void check_one_channel(const Image& height, const char* what) {
-  if (height.empty()) throw Error("{} is empty", what);
-  if (height.channels != 1) throw Error("{} has {} channels, allowed is 1", what, height.channels);
-}
-
 Image normals_from_height(const Image& height, double strength, Tile wraps) {
-  check_one_channel(height, "a height map");
-  const auto pixels_high = static_cast<float>(strength);
+  check_height(height);
   Image normals(height.size(), 3);
-  for_each_row(height.height, [&](int y) {
-    for (int x = 0; x < height.width; ++x)
-      // Rows count downwards and v upwards, so −∂h/∂v is the slope along the rows.
-      store_unit(-pixels_high * slope_along_x(height, x, y, wraps),
-                 pixels_high * slope_along_y(height, x, y, wraps), 1, normals.at(x, y));
+  for_each_ground_row(height, strength, wraps, [&](int y, const GroundRows& rows) {
+    float* to = normals.at(0, y);
+    for (int x = 0; x < height.width; ++x) {
+      const float along = (rows.here[x + 1] - rows.here[x - 1]) * 0.5f;
+      // Rows count downwards and v upwards.
+      const float up = (rows.above[x] - rows.below[x]) * 0.5f;
+      const float inverse = 1 / std::sqrt(along * along + up * up + 1);
+      to[3 * x] = -along * inverse;
+      to[3 * x + 1] = -up * inverse;
+      to[3 * x + 2] = inverse;
+    }
   });
   return normals;
 }

@@ -14,7 +14,8 @@ inline constexpr auto enum_names<GreenAxis> = std::to_array<std::string_view>({"
 /// right, y up the picture and z out of it; the direction of (−∂h/∂u, −∂h/∂v, 1) with v upwards
 /// (bump normals by central differences; Blinn 1978, "Simulation of wrinkled surfaces").
 ///   height    one channel; `strength` is how many pixels high a value of 1 stands
-///   wraps     the axes across whose edges the slope is taken
+///   wraps     the axes across whose edges the slope is taken; at others it is that of the edge's
+///             last two pixels
 /// Throws Error when `height` has another number of channels.
 Image normals_from_height(const Image& height, double strength, Tile wraps);
 

@@ -1,0 +1,45 @@
+#include "surface/maps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "surface/relief_maps.h"
+
+namespace gramloom {
+
+std::vector<std::string> maps_asked(const MapParams& params) {
+  std::vector<std::string> names;
+  if (params.normal) names.emplace_back("normal");
+  if (params.occlusion) names.emplace_back("occlusion");
+  if (params.curvature) names.emplace_back("curvature");
+  return names;
+}
+
+std::map<std::string, Image> maps_of_height(const Image& height, const MapParams& params,
+                                            Tile wraps) {
+  check_fields(params);
+  std::map<std::string, Image> maps;
+  if (params.normal)
+    maps["normal"] =
+        normals_to_colours(normals_from_height(height, params.strength, wraps), params.green);
+  if (params.occlusion)
+    maps["occlusion"] = ambient_occlusion(height, params.strength, params.occlusion_radius,
+                                          params.occlusion_lines, wraps);
+  if (params.curvature)
+    maps["curvature"] = curvature(height, params.strength, params.curvature_radius, wraps);
+  return maps;
+}
+
+Image one_channel(const Image& height, float tolerance) {
+  if (height.channels == 1) return height;
+  for (std::size_t i = 0; i < height.pixels.size();) {
+    const float first = height.pixels[i++];
+    for (int c = 1; c < height.channels; ++c)
+      if (std::abs(height.pixels[i++] - first) > tolerance)
+        throw Error("a height map has {} channels that differ, allowed is 1", height.channels);
+  }
+  return extract_channels(height, 0, 1);
+}
+
+}  // namespace gramloom
