@@ -30,8 +30,12 @@ ExitCode dispatch(int argc, char** argv) {
   app.footer(
       "Exit code: 0 all done; 1 a job failed or got worse; 2 bad usage or config; 130 "
       "interrupted.");
-  const std::vector<Command> commands{add_run(app, {argv, argv + argc}), add_check(app),
-                                      add_list(app), add_score(app), add_report(app)};
+  const std::vector<Command> commands{add_run(app, {argv, argv + argc}),
+                                      add_check(app),
+                                      add_list(app),
+                                      add_score(app),
+                                      add_report(app),
+                                      add_maps(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {

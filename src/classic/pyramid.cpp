@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/threads.h"
-#include "signal/colour_pca.h"
 #include "signal/fourier.h"
 #include "signal/histogram_match.h"
+#include "signal/layer_axes.h"
 #include "signal/steerable_pyramid.h"
 
 namespace gramloom {
@@ -111,11 +111,11 @@ Texture synthesise(const PyramidParams& params, const Request& request, const Co
   const int levels = usable_levels(params.levels, exemplar.size(), period);
   const auto from = steerable_pyramid(exemplar.size(), levels, params.orientations);
   const auto to = steerable_pyramid(period, levels, params.orientations);
-  const ColourPca pca = colour_pca(exemplar);
-  const Image axes = whitened(exemplar, pca);
+  const LayerAxes layers = layer_axes(exemplar, request.exemplars.front().layers);
+  const Image axes = whitened(exemplar, layers);
   std::vector<cv::Mat> planes;
   for (int c = 0; c < exemplar.channels; ++c) {
-    const bool flat = pca.deviation[static_cast<std::size_t>(c)] == 0;  // stays 0, as whitened
+    const bool flat = layers.is_flat(c);  // stays 0, as whitened
     cv::Mat plane;
     Histograms histograms;
     if (!flat) {
@@ -135,7 +135,7 @@ Texture synthesise(const PyramidParams& params, const Request& request, const Co
     if (!plane.empty()) set_channel(result, c, plane);
     plane.release();
   }
-  result = unwhitened(result, pca);
+  result = unwhitened(result, layers);
   match_histogram(result, exemplar);
   return {std::move(result), {}};
 }

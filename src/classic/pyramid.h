@@ -20,7 +20,9 @@ namespace gramloom {
 /// so that its edges add nothing, and histograms are matched by rank, not over bins.
 /// Departures: sizes need not be related (matching interpolates quantiles; the pyramid takes any
 /// size); and after the return from the PCA axes each colour channel is given the exemplar's
-/// histogram once more, so that it ends exactly right and in range.
+/// histogram once more, so that it ends exactly right and in range. Maps are not mixed with
+/// colours: the PCA is each layer's own, and what colours tell of a map, linearly, it has of the
+/// colours that were made (signal/layer_axes.h): the colours are the same with maps and without.
 struct PyramidParams {
   static constexpr std::string_view kind = "pyramid";
   static constexpr std::string_view summary =

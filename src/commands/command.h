@@ -25,6 +25,7 @@ Command add_check(CLI::App& program);
 Command add_list(CLI::App& program);
 Command add_score(CLI::App& program);
 Command add_report(CLI::App& program);
+Command add_maps(CLI::App& program);
 
 /// Writes to standard output. A reader who has gone away is no mistake of ours; else throws Error.
 ExitCode print(const std::string& text);

@@ -15,6 +15,7 @@ ExitCode list_topic(const std::string& chosen) {
   if (wanted("networks")) text += list_networks();
   if (wanted("patterns")) text += list_patterns();
   if (wanted("metrics")) text += list_metrics();
+  if (wanted("maps")) text += list_maps();
   return print(text);
 }
 
@@ -22,9 +23,10 @@ ExitCode list_topic(const std::string& chosen) {
 
 Command add_list(CLI::App& program) {
   const auto topic = std::make_shared<std::string>();
-  CLI::App* list = program.add_subcommand("list", "List methods, networks, patterns and metrics");
-  list->add_option("topic", *topic, "one of methods, networks, patterns, metrics")
-      ->check(CLI::IsMember({"methods", "networks", "patterns", "metrics"}));
+  CLI::App* list =
+      program.add_subcommand("list", "List methods, networks, patterns, metrics and maps");
+  list->add_option("topic", *topic, "one of methods, networks, patterns, metrics, maps")
+      ->check(CLI::IsMember({"methods", "networks", "patterns", "metrics", "maps"}));
   return {list, [topic] { return list_topic(*topic); }};
 }
 

@@ -32,9 +32,9 @@ struct Layer {
 
 /// A picture of a texture and maps of the same surface, joined to one image, so that a method makes
 /// them together and they stay registered.
-/// Methods that copy whole pixels (Ability::source) keep the values of layers of every kind; the
-/// others make each channel as plain numbers, whatever its layer's kind: a normal that they mix is
-/// no longer of unit length.
+/// Methods that copy whole pixels (Ability::source) keep the values of layers of every kind. Others
+/// mix no layers (see signal/layer_axes.h), but a normal whose channels they mix is no longer of
+/// unit length: jobs make it so again (jobs/unit_normals.h).
 struct Exemplar {
   Image image;
   std::vector<Layer> layers = {};  // each channel in one of them, in order; none: all are colour

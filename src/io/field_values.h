@@ -20,8 +20,25 @@ inline constexpr bool is_optional = false;
 template <class T>
 inline constexpr bool is_optional<std::optional<T>> = true;
 
-/// Files by names of the user's: a table of the config.
-using NamedFiles = std::map<std::string, std::filesystem::path>;
+/// Files by names of the user's: a table of the config. Each entry is a file, or a table of the
+/// fields of `File`, whose first is that file, "image"; the others are optional.
+template <class File>
+using NamedFiles = std::map<std::string, File>;
+
+template <class T>
+inline constexpr bool is_named_files = false;
+template <class File>
+inline constexpr bool is_named_files<NamedFiles<File>> = true;
+
+/// "a file, or a table of image, kind": what an entry of NamedFiles may be.
+template <class File>
+std::string allowed_entry() {
+  std::string keys;
+  for_each_field<File>([&](const auto& field) {
+    keys += fmt::format("{}{}", keys.empty() ? "" : ", ", field.name);
+  });
+  return "a file, or a table of " + keys;
+}
 
 template <>
 inline constexpr auto enum_names<Tile> = std::to_array<std::string_view>({"none", "x", "y",
@@ -47,7 +64,7 @@ std::string allowed_values(const Range& range) {
     return "a file";
   } else if constexpr (std::is_same_v<T, FileOrName>) {
     return "a name or a file";
-  } else if constexpr (std::is_same_v<T, NamedFiles>) {
+  } else if constexpr (is_named_files<T>) {
     return "a table of files: { name = \"file.png\" }";
   } else if constexpr (std::is_same_v<T, std::string>) {
     return "a text";
@@ -78,9 +95,16 @@ Json value_to_json(const T& value, const std::filesystem::path& folder) {
   } else if constexpr (std::is_same_v<T, FileOrName>) {
     if (value.is_name()) return valid_utf8(value.generic_string());
     return value_to_json<std::filesystem::path>(value, folder);
-  } else if constexpr (std::is_same_v<T, NamedFiles>) {
+  } else if constexpr (is_named_files<T>) {
     auto files = Json::object();
-    for (const auto& [name, file] : value) files[name] = value_to_json(file, folder);
+    for (const auto& [name, file] : value) {
+      auto entry = Json::object();
+      for_each_field<std::decay_t<decltype(file)>>([&](const auto& field) {
+        if (auto json = value_to_json(file.*field.member, folder); !json.is_null())
+          entry[std::string(field.name)] = std::move(json);
+      });
+      files[name] = entry.size() == 1 ? entry.front() : entry;  // the file alone, as it was given
+    }
     return files;
   } else if constexpr (is_list<T>) {
     auto list = Json::array();

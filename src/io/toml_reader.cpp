@@ -198,15 +198,6 @@ FileOrName read_file_or_name(const toml::node& node, const Slot& slot, const std
   return file.is_name() ? FileOrName(fs::path(".") / file) : file;  // "./photo" stays a file
 }
 
-NamedFiles read_files(const toml::node& node, const Slot& slot, const std::string& allowed) {
-  if (!node.is_table()) wrong_type(node, slot, allowed);
-  NamedFiles files;
-  for (const auto& [key, value] : *node.as_table())
-    files[std::string(key.str())] =
-        read_path(value, {key.str(), {}, key.source()}, allowed_values<fs::path>({}));
-  return files;
-}
-
 }  // namespace detail
 
 std::string required_text(const toml::table& table, std::string_view key) {

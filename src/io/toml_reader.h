@@ -57,7 +57,9 @@ std::string read_string(const toml::node& node, const Slot& slot, const std::str
 std::filesystem::path read_path(const toml::node& node, const Slot& slot,
                                 const std::string& allowed);
 FileOrName read_file_or_name(const toml::node& node, const Slot& slot, const std::string& allowed);
-NamedFiles read_files(const toml::node& node, const Slot& slot, const std::string& allowed);
+
+template <class Files>
+Files read_files(const toml::node& node, const Slot& slot, const std::string& allowed);
 
 template <class T>
 T read_value(const toml::node& node, const Slot& slot, const std::string& allowed) {
@@ -87,8 +89,8 @@ T read_value(const toml::node& node, const Slot& slot, const std::string& allowe
     return read_path(node, slot, allowed);
   } else if constexpr (std::is_same_v<T, FileOrName>) {
     return read_file_or_name(node, slot, allowed);
-  } else if constexpr (std::is_same_v<T, NamedFiles>) {
-    return read_files(node, slot, allowed);
+  } else if constexpr (is_named_files<T>) {
+    return read_files<T>(node, slot, allowed);
   } else if constexpr (std::is_same_v<T, std::string>) {
     return read_string(node, slot, allowed);
   } else {
@@ -132,6 +134,28 @@ void read_fields(Params& params, const toml::table& table) {
 
 /// The text under `key`, which must be there and not empty.
 std::string required_text(const toml::table& table, std::string_view key);
+
+namespace detail {
+
+template <class Files>
+Files read_files(const toml::node& node, const Slot& slot, const std::string& allowed) {
+  using File = typename Files::mapped_type;
+  if (!node.is_table()) wrong_type(node, slot, allowed);
+  Files files;
+  for (const auto& [key, value] : *node.as_table()) {
+    File& file = files[std::string(key.str())];
+    if (const toml::table* table = value.as_table()) {
+      check_keys(*table, key_names<File>());
+      required_text(*table, "image");
+      read_fields(file, *table);
+    } else {
+      file.image = read_path(value, {key.str(), {}, key.source()}, allowed_entry<File>());
+    }
+  }
+  return files;
+}
+
+}  // namespace detail
 
 /// The index of the alternative of the variant V whose `name` stands under `key`.
 template <class V>

@@ -39,12 +39,12 @@ std::string read_name(const toml::table& table, NamesInUse& names) {
   return name;
 }
 
-void check_maps(const NamedFiles& maps, const toml::source_region& region) {
+void check_maps(const NamedFiles<MapFile>& maps, const toml::source_region& region) {
   NamesInUse names;
   for (const auto& [map, file] : maps) {
     check_name(map, longest_map_name, region);
     names.add(map, region);
-    if (file.empty()) fail(region, "the map '{}' has no file", map);
+    if (file.image.empty()) fail(region, "the map '{}' has no file", map);
   }
 }
 
@@ -79,14 +79,33 @@ std::vector<MethodEntry> read_methods(toml::table& config) {
   return methods;
 }
 
-// The [baseline] table, where there is one.
-BaselineLimits read_limits(toml::table& config) {
-  BaselineLimits limits;
-  const toml::table* table = single_section(config, "baseline");
-  if (!table) return limits;
-  check_keys(*table, key_names<BaselineLimits>());
-  read_fields(limits, *table);
-  return limits;
+// A table like [baseline] through its field list; without one, the defaults.
+template <class Fields>
+Fields read_section(toml::table& config, std::string_view name) {
+  Fields fields;
+  const toml::table* table = single_section(config, name);
+  if (!table) return fields;
+  check_keys(*table, key_names<Fields>());
+  read_fields(fields, *table);
+  return fields;
+}
+
+// Maps are made of a height, and nobody has two maps of one name.
+void check_surface(const Config& config, toml::table& table) {
+  const std::vector<std::string> asked = maps_asked(config.surface);
+  if (asked.empty()) return;
+  const toml::source_region& region = key_region(table, "surface");
+  bool any_height = false;
+  for (const MethodEntry& method : config.methods) any_height |= !needs_exemplar(method.method);
+  for (const ExemplarEntry& exemplar : config.exemplars) {
+    any_height |= exemplar.maps.contains("height");
+    for (const std::string& name : asked)
+      if (exemplar.maps.contains(name))
+        fail(region, "the map '{}' is the exemplar's own, of '{}': leave one of the two out", name,
+             exemplar.name);
+  }
+  if (!any_height)
+    fail(region, "'surface' makes maps of heights: no exemplar has a map called 'height'");
 }
 
 void check_seeds(const Config& config, const toml::table& table) {
@@ -119,7 +138,7 @@ Config parse_config(const std::string& text, const fs::path& file,
   toml::table table = parse_toml(text, file.string());
   for (const auto& option : overrides) apply_override(table, option);
   std::vector<std::string> keys = config_keys();
-  keys.insert(keys.end(), {"exemplar", "method", "baseline"});
+  keys.insert(keys.end(), {"exemplar", "method", "baseline", "surface"});
   check_keys(table, keys);
 
   Config config;
@@ -129,8 +148,10 @@ Config parse_config(const std::string& text, const fs::path& file,
   read_fields(config, table);
   config.exemplars = read_exemplars(table);
   config.methods = read_methods(table);
-  config.baseline = read_limits(table);
+  config.baseline = read_section<BaselineLimits>(table, "baseline");
+  config.surface = read_section<MapParams>(table, "surface");
   check_whole(config, table);
+  check_surface(config, table);
   return config;
 }
 

@@ -9,8 +9,10 @@
 #include "core/image.h"
 #include "io/field_values.h"
 #include "io/image_file.h"
+#include "jobs/map_file.h"
 #include "jobs/methods.h"
 #include "runs/baseline_limits.h"
+#include "surface/maps.h"
 
 namespace gramloom {
 
@@ -25,7 +27,8 @@ inline constexpr auto enum_names<FileFormat> =
 struct ExemplarEntry {
   std::string name;  // fit for a folder's name
   std::filesystem::path image;
-  NamedFiles maps;  // further pictures of the same surface, pixel for pixel: "height", "roughness"
+  NamedFiles<MapFile>
+      maps;  // further pictures of the same surface, pixel for pixel: "height", "roughness"
   std::optional<int> max_side;
   std::string place;  // where the config says so, for messages
 
@@ -62,6 +65,7 @@ struct Config {
   std::vector<ExemplarEntry> exemplars;
   std::vector<MethodEntry> methods;
   BaselineLimits baseline;  // its [baseline]
+  MapParams surface;        // its [surface]: maps of every result that has a height
 
   static constexpr auto fields() {
     using C = Config;

@@ -1,10 +1,10 @@
 #include "jobs/exemplar.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "signal/resize.h"
+#include "surface/normal_map.h"
 
 namespace gramloom {
 
@@ -56,14 +56,25 @@ Image join(const Image& image, const Image& more) {
   return joined;
 }
 
-MapKind kind_of_map(const ExemplarFile& file) {
-  std::string name = file.map;
-  std::ranges::transform(name, name.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto says = [&](const char* word) { return name.find(word) != std::string::npos; };
-  if (says("normal") && file.channels == 3) return MapKind::normal;
-  if (says("alpha") || says("opacity")) return MapKind::alpha;
-  return MapKind::scalar;
+// Normals are in [-1, 1], whatever values a map happens to have of these.
+void fit_normals(Image& map, ExemplarFile& file) {
+  if (std::none_of(map.pixels.begin(), map.pixels.end(), [](float v) { return v < 0; })) return;
+  file.low = -1;
+  for (float& value : map.pixels) value = (value + 1) / 2;
+}
+
+void check_channels(const ExemplarEntry& entry, const MapFile& map, const ExemplarFile& file) {
+  if (file.kind != MapKind::normal || file.channels >= 3) return;
+  throw ConfigError("{}: the map {} has {} channels: kind = \"normal\" needs 3", entry.place,
+                    map.image.string(), file.channels);
+}
+
+bool has_alpha(const ExemplarFile& file) {
+  const std::vector<std::string>& names = file.encoding.channel_names;
+  const bool seen_together = file.kind == MapKind::colour || file.kind == MapKind::normal;
+  return seen_together && file.channels > 1 &&
+         ((!names.empty() && names.back() == "A") ||
+          (file.kind == MapKind::normal && file.channels == 4));
 }
 
 }  // namespace
@@ -78,19 +89,28 @@ LoadedExemplar load_exemplar(const ExemplarEntry& entry) {
   keep_notes(entry.image, picture.notes);
   Image& image = loaded.exemplar.image;
   loaded.files.push_back({"", image.channels, std::move(picture.encoding)});
-  for (const auto& [name, path] : entry.maps) {
-    ImageFile map = read_image(path);
+  for (const auto& [name, entry_of_map] : entry.maps) {
+    ImageFile map = read_image(entry_of_map.image);
+    const fs::path& path = entry_of_map.image;
     check_size(entry, image, path, map.image);
     keep_notes(path, map.notes);
     note_missing_data(map.image, path.filename().string(), loaded.notes);
     ExemplarFile file{name, map.image.channels, std::move(map.encoding)};
-    fit_into_unit_range(map.image, file);
+    file.kind = kind_of_map(name, entry_of_map, map.image);
+    file.green = green_of_map(name, entry_of_map);
+    check_channels(entry, entry_of_map, file);
+    file.kind == MapKind::normal ? fit_normals(map.image, file)
+                                 : fit_into_unit_range(map.image, file);
     image = join(image, map.image);
     loaded.files.push_back(std::move(file));
   }
   // Each channel is scaled by itself: joined or not, it comes out the same.
+  const Size whole = image.size();
   if (entry.max_side) image = fit_longer_side(image, *entry.max_side);
   loaded.exemplar.layers = layers_of(loaded.files);
+  if (image.size() != whole)
+    for (const Layer& layer : loaded.exemplar.layers)
+      if (layer.kind == MapKind::normal) make_unit(image, layer.first);
   return loaded;
 }
 
@@ -102,13 +122,8 @@ std::vector<Layer> layers_of(const std::vector<ExemplarFile>& files) {
     first += std::max(0, count);
   };
   for (const ExemplarFile& file : files) {
-    if (!file.map.empty()) {
-      add(file, kind_of_map(file), file.channels);
-      continue;
-    }
-    const std::vector<std::string>& names = file.encoding.channel_names;
-    const int alpha = file.channels > 1 && !names.empty() && names.back() == "A" ? 1 : 0;
-    add(file, MapKind::colour, file.channels - alpha);
+    const int alpha = has_alpha(file) ? 1 : 0;
+    add(file, file.kind, file.channels - alpha);
     add(file, MapKind::alpha, alpha);
   }
   return layers;

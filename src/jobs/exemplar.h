@@ -16,6 +16,8 @@ struct ExemplarFile {
   Encoding encoding;
   float low = 0;  // the file's values that 0 and 1 of the joined image stand for
   float high = 1;
+  MapKind kind = MapKind::colour;
+  GreenAxis green = GreenAxis::up;  // of normals
 };
 
 /// An exemplar as methods see it, and its files: the picture, then its maps by name. Methods weigh
@@ -27,13 +29,14 @@ struct LoadedExemplar {
   std::vector<std::string> notes = {};  // "h.tif: …": where values are not quite those of the files
 };
 
-/// Reads the picture and its maps and scales them to max_side. Throws ConfigError when a map has
-/// another size than the picture, Error for a file that cannot be read.
+/// Reads the picture and its maps and scales them to max_side, after which normals are of unit
+/// length again. Normals of [-1, 1], as float files may have them, come as (1 + component) / 2.
+/// Throws ConfigError when a map has another size than the picture, or too few channels for its
+/// kind; Error for a file that cannot be read.
 LoadedExemplar load_exemplar(const ExemplarEntry& entry);
 
-/// The layers of the joined image. A picture's are colour, and alpha where its last channel is
-/// called "A". A map's kind is told by its name: "normal" in it, and three channels, for normals;
-/// "alpha" or "opacity" for alpha; all others are scalars.
+/// The layers of the joined image, a file's or two: alpha by itself where the last channel of a
+/// picture, of colours or of normals is called "A", or is the fourth.
 std::vector<Layer> layers_of(const std::vector<ExemplarFile>& files);
 
 /// The number of channels of the joined image.

@@ -38,7 +38,7 @@ std::vector<InputFile> input_files(const Config& config) {
   std::vector<InputFile> files{{config.file, "is the config"}};
   for (const ExemplarEntry& exemplar : config.exemplars) {
     files.push_back({exemplar.image, "the config reads"});
-    for (const auto& [map, file] : exemplar.maps) files.push_back({file, "the config reads"});
+    for (const auto& [map, file] : exemplar.maps) files.push_back({file.image, "the config reads"});
   }
   for (const MethodEntry& method : config.methods) add_files_of(method.method, files);
   return files;

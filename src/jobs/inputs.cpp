@@ -36,7 +36,7 @@ std::string FileHashes::of(const fs::path& path) {
 
 std::vector<std::string> exemplar_hashes(const ExemplarEntry& exemplar, FileHashes& hashes) {
   std::vector<std::string> list{hashes.of(exemplar.image)};
-  for (const auto& [name, file] : exemplar.maps) list.push_back(hashes.of(file));
+  for (const auto& [name, file] : exemplar.maps) list.push_back(hashes.of(file.image));
   return list;
 }
 

@@ -1,12 +1,13 @@
 #include "jobs/job_scores.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "io/text_file.h"
 #include "jobs/interruption.h"
 #include "jobs/memory.h"
-#include "metrics/scores.h"
+#include "metrics/map_scores.h"
 #include "runs/job_files.h"
 
 namespace gramloom {
@@ -15,11 +16,40 @@ namespace {
 
 using nlohmann::literals::operator""_json_pointer;
 
-std::map<std::string, std::optional<double>> values_of(const Scores& scores) {
-  std::map<std::string, std::optional<double>> values;
-  for (const auto& [name, value] : scores.values)
+JobRecord::Values values_of(const std::vector<std::pair<std::string_view, double>>& scores) {
+  JobRecord::Values values;
+  for (const auto& [name, value] : scores)
     values[std::string(name)] = std::isfinite(value) ? std::optional(value) : std::nullopt;
   return values;
+}
+
+// A map as its file holds it, in the values that the joined exemplar has.
+Image read_map(const std::filesystem::path& path, const ExemplarFile& file) {
+  ImageFile map = read_image(path);
+  const PixelType type = map.encoding.pixel_type;
+  const bool integer = type == PixelType::uint8 || type == PixelType::uint16;
+  if (!integer && (file.low != 0 || file.high != 1))
+    for (float& value : map.image.pixels) value = (value - file.low) / (file.high - file.low);
+  return std::move(map.image);
+}
+
+// Those of the exemplar's maps that the texture has.
+std::map<std::string, JobRecord::Values> map_values(Run& run, const Job& job, const JobFiles& files,
+                                                    const JobRecord& record) {
+  std::map<std::string, JobRecord::Values> all;
+  const Image& joined = request_of(run, job).exemplars.front().image;
+  int first = 0;
+  for (const ExemplarFile& file : run.files) {
+    const auto own = std::ranges::find_if(record.files, [&](const std::string& name) {
+      return !file.map.empty() &&
+             std::filesystem::path(name).stem() == fmt::format("{}_{}", files.name, file.map);
+    });
+    if (own != record.files.end())
+      all[file.map] = values_of(score_map(extract_channels(joined, first, file.channels),
+                                          read_map(files.folder / *own, file), file.kind));
+    first += file.channels;
+  }
+  return all;
 }
 
 // Puts the scores into the record and their picture on disk; throws what goes wrong.
@@ -35,7 +65,8 @@ void score_texture(Run& run, const PlannedJob& planned, const JobFiles& files, J
       score(exemplar, texture, run.config.tile, shown_work(run), source_of(run, planned));
   write_image(files.copy_map, scores.copy_map, {});
   record.copy_map = files.copy_map.lexically_relative(run.options.output).generic_string();
-  record.metrics = values_of(scores);
+  record.metrics = values_of(scores.values);
+  if (run.files.size() > 1) record.map_metrics = map_values(run, planned.job, files, record);
 }
 
 }  // namespace

@@ -7,8 +7,10 @@
 #include "jobs/memory.h"
 #include "jobs/progress_bar.h"
 #include "jobs/text_table.h"
-#include "metrics/scores.h"
+#include "metrics/map_scores.h"
 #include "neural/network/network_description.h"
+#include "surface/maps.h"
+#include "surface/photo.h"
 
 namespace gramloom {
 
@@ -125,9 +127,22 @@ std::string job_table(const Config& config, const Plan& plan) {
          fmt::format("{} {}, about {}\n", count, count == 1 ? "job" : "jobs", clock_text(seconds));
 }
 
+std::string list_maps() {
+  std::string text;
+  const auto add = [&]<class Params>(std::type_identity<Params>) {
+    text += fmt::format("{}: {}\n", Params::name, Params::summary);
+    text += text_table(parameter_rows<Params>(), "  ") + "\n";
+  };
+  add(std::type_identity<MapParams>());
+  add(std::type_identity<PhotoParams>());
+  return text;
+}
+
 std::string list_metrics() {
   std::string text;
-  for (const Metric& metric : metrics()) {
+  std::vector<Metric> all(metrics().begin(), metrics().end());
+  all.insert(all.end(), map_metrics().begin(), map_metrics().end());
+  for (const Metric& metric : all) {
     text += fmt::format("{} ({}): {}\n", metric.name, metric.group, metric.meaning);
     text += fmt::format("  {}; {} is better; {}\n", metric.range,
                         metric.higher_is_better ? "more" : "less", metric.paper);

@@ -19,6 +19,9 @@ std::string list_networks();
 /// The selected jobs with their estimated memory and time, and what keeps one from running.
 std::string job_table(const Config& config, const Plan& plan);
 
+/// What is made of a height map or a photograph, with its parameters.
+std::string list_maps();
+
 /// Every score with its meaning, its range and what fools it.
 std::string list_metrics();
 

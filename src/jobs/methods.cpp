@@ -1,6 +1,7 @@
 #include "jobs/methods.h"
 
 #include "core/variants.h"
+#include "jobs/unit_normals.h"
 
 namespace gramloom {
 
@@ -37,8 +38,10 @@ std::vector<std::string_view> methods_with(Ability ability) {
 
 Texture run_method(const Method& method, const Request& request, const Control& control) {
   refuse_lacks(method, size_of(request));
-  return std::visit([&](const auto& params) { return synthesise(params, request, control); },
-                    method);
+  Texture texture =
+      std::visit([&](const auto& params) { return synthesise(params, request, control); }, method);
+  keep_normals_unit(texture, request.exemplars);
+  return texture;
 }
 
 Cost estimate_method(const Method& method, const RequestSize& request) {

@@ -1,16 +1,13 @@
 #include "jobs/output_guard.h"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <map>
 #include <optional>
 #include <string_view>
-#include <utility>
 
 #include "io/image_file.h"
+#include "jobs/protected_files.h"
 #include "runs/job_files.h"
 #include "runs/own_files.h"
 #include "runs/record.h"
@@ -20,21 +17,6 @@ namespace gramloom {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A file by itself, whatever its names.
-using Identity = std::pair<dev_t, ino_t>;
-
-std::optional<Identity> identity_of(const fs::path& file) {
-  struct stat status {};
-  if (stat(file.c_str(), &status) != 0) return std::nullopt;
-  return Identity{status.st_dev, status.st_ino};
-}
-
-// A link that leads nowhere is there, too.
-bool is_there(const fs::path& file) {
-  std::error_code ignored;
-  return fs::exists(fs::symlink_status(file, ignored));
-}
 
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
@@ -71,10 +53,7 @@ bool made_by_us(const fs::path& picture) {
 class Guard {
  public:
   Guard(const Config& config, const fs::path& output, const std::vector<InputFile>& inputs)
-      : config_(config), output_(output), before_(earlier_run_in(output)) {
-    for (const InputFile& input : inputs)
-      if (const auto identity = identity_of(input.file)) inputs_.emplace(*identity, &input);
-  }
+      : config_(config), output_(output), before_(earlier_run_in(output)), inputs_(inputs) {}
 
   void check_files_of_run() const {
     check(output_ / "run.json", [&](const fs::path&) { return before_.is_ours; });
@@ -121,19 +100,8 @@ class Guard {
  private:
   void check(const fs::path& file, const auto& is_ours) const {
     if (!is_there(file)) return;
-    if (const auto identity = identity_of(file); identity && inputs_.contains(*identity))
-      refuse_input(file, *inputs_.at(*identity));
+    inputs_.check(file);
     if (!is_ours(file)) refuse_foreign(file);
-  }
-
-  [[noreturn]] static void refuse_input(const fs::path& file, const InputFile& input) {
-    const std::string name = file.lexically_normal().string();
-    std::error_code ignored;
-    const bool same_name = fs::absolute(file, ignored).lexically_normal() ==
-                           fs::absolute(input.file, ignored).lexically_normal();
-    if (same_name) throw Error("would write over {}, which {}", name, input.reader);
-    throw Error("would write over {}, the same file as {}, which {}", name, input.file.string(),
-                input.reader);
   }
 
   // Of the texture and its maps.
@@ -149,14 +117,17 @@ class Guard {
     return contains(names, rest);
   }
 
-  // Which maps the job's texture has: the exemplar's, or those that procedural textures know.
+  // Which maps the job's texture has: the exemplar's, or those that procedural textures know; and
+  // those made of its height.
   std::function<bool(const std::string&)> map_names(const Job& job) const {
+    const std::vector<std::string> made = maps_asked(config_.surface);
     if (job.exemplar)
-      return [&maps = config_.exemplars[*job.exemplar].maps](const std::string& name) {
-        return maps.contains(name);
+      return [&maps = config_.exemplars[*job.exemplar].maps, made](const std::string& name) {
+        return maps.contains(name) || contains(made, name);
       };
-    return [](const std::string& name) {
-      return name == "height" || name == "mask" || name.starts_with("frame_");
+    return [made](const std::string& name) {
+      return name == "height" || name == "mask" || name.starts_with("frame_") ||
+             contains(made, name);
     };
   }
 
@@ -172,7 +143,7 @@ class Guard {
   const Config& config_;
   const fs::path& output_;
   EarlierRun before_;
-  std::map<Identity, const InputFile*> inputs_;
+  ProtectedFiles inputs_;
   fs::path folder_;  // of the last job, and what is in it
   std::vector<std::string> names_;
 };

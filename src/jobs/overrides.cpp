@@ -56,12 +56,12 @@ bool assign_in_section(toml::table& config, std::string_view kind, const std::st
 }
 
 // "baseline.key": into that table. False: not of this form.
-bool assign_in_baseline(toml::table& config, const std::string& path, std::string_view value,
-                        const std::string& option) {
-  constexpr std::string_view prefix = "baseline.";
+bool assign_in_table(toml::table& config, std::string_view name, const std::string& path,
+                     std::string_view value, const std::string& option) {
+  const std::string prefix = fmt::format("{}.", name);
   if (!path.starts_with(prefix)) return false;
-  if (!single_section(config, "baseline")) config.insert("baseline", toml::table());
-  assign(*single_section(config, "baseline"), path.substr(prefix.size()), value, option);
+  if (!single_section(config, name)) config.insert(name, toml::table());
+  assign(*single_section(config, name), path.substr(prefix.size()), value, option);
   return true;
 }
 
@@ -115,7 +115,8 @@ void apply_override(toml::table& config, const std::string& option) {
     assign(config, key, value, option);
   else if (!assign_in_section(config, "method", option) &&
            !assign_in_section(config, "exemplar", option) &&
-           !assign_in_baseline(config, key, value, option))
+           !assign_in_table(config, "baseline", key, value, option) &&
+           !assign_in_table(config, "surface", key, value, option))
     assign_in_methods(config, key, value, option);
 }
 

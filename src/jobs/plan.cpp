@@ -27,13 +27,29 @@ void check_values(const ExemplarEntry& exemplar, const Image& joined) {
   }
 }
 
-ExemplarFacts look_at(const ExemplarEntry& exemplar) {
+// Throws ConfigError when maps are to be made of a height that is none.
+void check_height(const Config& config, const ExemplarEntry& exemplar,
+                  const LoadedExemplar& loaded) {
+  if (maps_asked(config.surface).empty()) return;
+  for (const Layer& layer : loaded.exemplar.layers) {
+    if (layer.name != "height") continue;
+    try {
+      one_channel(extract_channels(loaded.exemplar.image, layer.first, layer.count));
+    } catch (const Error& error) {
+      throw ConfigError("{}: {}: {}", exemplar.place, exemplar.maps.at("height").image.string(),
+                        error.what());
+    }
+  }
+}
+
+ExemplarFacts look_at(const Config& config, const ExemplarEntry& exemplar) {
   ExemplarFacts facts;
   try {
     LoadedExemplar loaded = load_exemplar(exemplar);
     facts.size = loaded.exemplar.image.size();
     facts.files = std::move(loaded.files);
     check_values(exemplar, loaded.exemplar.image);
+    check_height(config, exemplar, loaded);
   } catch (const ConfigError&) {
     throw;  // for the user to mend first
   } catch (const Error& error) {
@@ -133,7 +149,7 @@ bool job_matches(const std::string& pattern, const std::string& job) {
 
 Plan make_plan(const Config& config, const std::string& only) {
   Plan plan;
-  for (const auto& exemplar : config.exemplars) plan.exemplars.push_back(look_at(exemplar));
+  for (const auto& exemplar : config.exemplars) plan.exemplars.push_back(look_at(config, exemplar));
   for (const Job& job : all_jobs(config)) {
     PlannedJob planned{job, job_name(config, job), {}, {}, {}, true};
     planned.selected = job_matches(only, planned.name);

@@ -47,6 +47,12 @@ OutputFormat format_of_own_map(const Image& map, const Image& texture, const Out
   return {format.extension, {type == PixelType::uint8 ? PixelType::uint16 : type, "", {}}, 0, 1};
 }
 
+// The format of a map that is made of the height: with steps as fine as that one's.
+OutputFormat format_of_made_map(const Config& config, const Image& map,
+                                const OutputFormat& height) {
+  return output_format(config, {height.encoding.pixel_type, "", {}}, map.channels);
+}
+
 // With the format's `low` as 0 and its `high` as 1.
 Image scaled(Image map, const OutputFormat& format) {
   if (format.low != 0 || format.high != 1)
@@ -79,9 +85,14 @@ OutputFormats output_formats(const Config& config, const std::vector<ExemplarFil
   OutputFormats formats{output_format(config, encoding, texture.image.channels), {}};
   for (const ExemplarFile& file : files)
     if (!file.map.empty()) formats.maps[file.map] = format_of_map(config, file);
+  const std::vector<std::string> made = maps_asked(config.surface);
   for (const auto& [name, map] : texture.maps)
-    if (!formats.maps.contains(name))
+    if (!formats.maps.contains(name) && std::find(made.begin(), made.end(), name) == made.end())
       formats.maps[name] = format_of_own_map(map, texture.image, formats.picture);
+  for (const std::string& name : made)
+    if (texture.maps.contains(name))
+      formats.maps[name] =
+          format_of_made_map(config, texture.maps.at(name), formats.maps.at("height"));
   return formats;
 }
 

@@ -7,6 +7,7 @@
 #include "jobs/memory.h"
 #include "jobs/results.h"
 #include "jobs/settings.h"
+#include "jobs/surface_maps.h"
 #include "jobs/trace_log.h"
 #include "runs/job_files.h"
 
@@ -98,12 +99,13 @@ Made make_texture(Run& run, const Work& work, TraceLog& trace) {
 void write_results(const Run& run, const Work& work, Texture joined, const TraceLog& trace,
                    JobRecord& record) {
   const JobFiles& files = work.files;
-  const Texture texture = split_layers(std::move(joined), run.files);
+  Texture texture = split_layers(std::move(joined), run.files);
+  record.notes = run.notes;
+  add_surface_maps(texture, run.config, record.notes);
   const WrittenTexture written =
       write_texture(files.folder, files.name, texture,
                     output_formats(run.config, run.files, texture), record.settings);
   record.files = written.files;
-  record.notes = run.notes;
   record.notes.insert(record.notes.end(), written.notes.begin(), written.notes.end());
   record.texture = file_hash(files.folder / record.files.front());
   record.loss = summarise(trace.trace());

@@ -24,9 +24,12 @@ Json exemplar_settings(const ExemplarEntry& exemplar, const std::vector<std::str
                 {"max_side", value_to_json(exemplar.max_side, {})},
                 {"hash", hashes.at(0)}};
   std::size_t layer = 0;
-  for (const auto& [name, file] : exemplar.maps)
-    settings["maps"][name] = {{"image", valid_utf8(file.filename().string())},
-                              {"hash", hashes.at(++layer)}};
+  for (const auto& [name, file] : exemplar.maps) {
+    Json& map = settings["maps"][name];
+    map = {{"image", valid_utf8(file.image.filename().string())}, {"hash", hashes.at(++layer)}};
+    if (file.kind) map["kind"] = to_word(*file.kind);
+    if (file.green) map["green"] = to_word(*file.green);
+  }
   return settings;
 }
 
@@ -58,6 +61,7 @@ Json job_settings(const Config& config, const Job& job, const InputHashes& input
   settings["tile"] = value_to_json(config.tile, {});
   settings["format"] = value_to_json(config.format, {});
   settings["pixel_type"] = value_to_json(config.pixel_type, {});
+  if (!maps_asked(config.surface).empty()) settings["surface"] = fields_to_json(config.surface, {});
   // As a record will hold it: a name may have bytes that are no UTF-8.
   return parse_json(to_text(settings));
 }
@@ -73,6 +77,7 @@ Json config_to_json(const Config& config) {
   const fs::path folder = config.file.parent_path();
   Json json = fields_to_json(config, folder);
   json["baseline"] = fields_to_json(config.baseline, folder);
+  if (!maps_asked(config.surface).empty()) json["surface"] = fields_to_json(config.surface, folder);
   json["exemplar"] = Json::array();
   for (const auto& exemplar : config.exemplars) {
     Json entry{{"name", exemplar.name}};

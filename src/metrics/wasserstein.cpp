@@ -20,19 +20,6 @@ constexpr int patch_side = 7;
 constexpr int patch_scales = 3;
 constexpr int patch_directions = 64;
 
-/// Up to `wanted` of the numbers below `count`, one from each of as many runs of equal length (a
-/// regular sample would miss every second stripe).
-std::vector<std::int64_t> sample(std::int64_t count, std::int64_t wanted) {
-  const std::int64_t taken = std::min(count, wanted);
-  std::vector<std::int64_t> result;
-  Random random(direction_seed, 1);
-  for (std::int64_t i = 0; i < taken; ++i) {
-    const std::int64_t begin = count * i / taken, end = count * (i + 1) / taken;
-    result.push_back(begin + random.below(static_cast<std::uint32_t>(end - begin)));
-  }
-  return result;
-}
-
 /// Makes the mean of every `step`th value from `first` on 0.
 void remove_mean(std::vector<double>& values, int first, int step) {
   const int length = static_cast<int>(values.size());
@@ -84,7 +71,7 @@ void sort_all(Projections& projections) {
 
 Projections projections_at_scale(const Image& image, const std::vector<float>& directions) {
   const int columns = image.width - patch_side + 1, rows = image.height - patch_side + 1;
-  const auto places = sample(std::int64_t{columns} * rows, 16384);
+  const auto places = spread_sample(std::int64_t{columns} * rows, 16384);
   Projections result(patch_directions, std::vector<float>(places.size()));
   parallel_for(
       static_cast<std::int64_t>(places.size()), 256, [&](std::int64_t begin, std::int64_t end) {
@@ -110,6 +97,17 @@ double deviation(const std::vector<float>& values) {
 }
 
 }  // namespace
+
+std::vector<std::int64_t> spread_sample(std::int64_t count, std::int64_t wanted) {
+  const std::int64_t taken = std::min(count, wanted);
+  std::vector<std::int64_t> result;
+  Random random(direction_seed, 1);
+  for (std::int64_t i = 0; i < taken; ++i) {
+    const std::int64_t begin = count * i / taken, end = count * (i + 1) / taken;
+    result.push_back(begin + random.below(static_cast<std::uint32_t>(end - begin)));
+  }
+  return result;
+}
 
 double quantile_distance(const std::vector<float>& a, const std::vector<float>& b) {
   const std::size_t count = std::min(a.size(), b.size());
@@ -150,7 +148,7 @@ Projections colour_projections(const Image& image, double scale) {
   const int extra = image.channels == 1 ? 0 : random_count;
   const auto directions = random_directions(image.channels, random_count, 0);
   const auto channels = static_cast<std::size_t>(image.channels);
-  const auto places = sample(std::int64_t{image.width} * image.height, 65536);
+  const auto places = spread_sample(std::int64_t{image.width} * image.height, 65536);
   Projections result(static_cast<std::size_t>(axes + extra), std::vector<float>(places.size()));
   for (std::size_t i = 0; i < places.size(); ++i) {
     const float* in = image.pixels.data() + static_cast<std::size_t>(places[i]) * channels;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/image.h"
@@ -9,6 +10,10 @@ namespace gramloom {
 // Sliced Wasserstein distances: the mean over fixed random directions of the one-dimensional
 // Wasserstein-1 distance of the projections (Rabin, Peyré, Delon, Bernot 2011, "Wasserstein
 // barycenter and its application to texture mixing"). 0 for equal distributions.
+
+/// Up to `wanted` of the numbers below `count`, one at random from each of as many runs of equal
+/// length (a regular sample would miss every second stripe); always the same.
+std::vector<std::int64_t> spread_sample(std::int64_t count, std::int64_t wanted);
 
 /// The mean over ranks of the distance between the quantile functions of two ascending lists, at as
 /// many ranks as the shorter one has.

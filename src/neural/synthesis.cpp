@@ -17,6 +17,7 @@
 #include "neural/resample.h"
 #include "neural/settings.h"
 #include "signal/histogram_match.h"
+#include "signal/layer_axes.h"
 
 namespace gramloom::neural {
 
@@ -27,16 +28,23 @@ using Clock = std::chrono::steady_clock;
 constexpr double seconds_between_checkpoints = 60;
 
 // The colours that the loss sees: an affine map of the exemplar's, undone for the result. Along the
-// principal axes the deviation becomes d^(1 − whitening), in units of their root mean square.
+// principal axes of each layer the deviation becomes d^(1 − whitening), in units of the layer's
+// root mean square: layers are not mixed, and count alike whatever their units.
 ColourPca seen_colours(const NeuralParams& params, const NetworkDescription& description,
-                       const ColourPca& principal) {
-  ColourPca colours = principal;
+                       const Exemplar& exemplar) {
+  const auto blocks = channel_blocks(exemplar.layers, exemplar.image.channels);
+  ColourPca colours = principal_axes(exemplar.image, blocks);
   const auto channels = static_cast<std::size_t>(colours.channels);
-  double variance = 0;
-  for (const float d : principal.deviation) variance += static_cast<double>(d) * d;
-  const double common = std::sqrt(variance / colours.channels);
+  const auto common_of = [&](const ChannelBlock& block) {
+    double variance = 0;
+    for (int i = block.first; i < block.first + block.count; ++i) {
+      const float d = colours.deviation[static_cast<std::size_t>(i)];
+      variance += static_cast<double>(d) * d;
+    }
+    return std::sqrt(variance / block.count);
+  };
   if (needs_network(params) && !params.weights.empty()) {  // what trained weights expect
-    colours.deviation.assign(channels, static_cast<float>(common));
+    colours.deviation.assign(channels, static_cast<float>(common_of({0, exemplar.image.channels})));
     if (!description.input_mean.empty()) {
       colours.mean.assign(description.input_mean.begin(), description.input_mean.end());
       colours.deviation.assign(description.input_deviation.begin(),
@@ -45,10 +53,13 @@ ColourPca seen_colours(const NeuralParams& params, const NetworkDescription& des
     for (std::size_t i = 0; i < channels * channels; ++i)
       colours.axes[i] = i % (channels + 1) == 0 ? 1.0f : 0.0f;
   } else {
-    for (float& d : colours.deviation)
-      if (d > 0)
-        d = static_cast<float>(std::pow(d, params.whitening) *
-                               std::pow(common, 1 - params.whitening));
+    for (const ChannelBlock& block : blocks) {
+      const double common = common_of(block);
+      for (int i = block.first; i < block.first + block.count; ++i)
+        if (float& d = colours.deviation[static_cast<std::size_t>(i)]; d > 0)
+          d = static_cast<float>(std::pow(d, params.whitening) *
+                                 std::pow(common, 1 - params.whitening));
+    }
   }
   return colours;
 }
@@ -68,22 +79,23 @@ at::Tensor noise(Random random, int channels, Size size) {
 // One synthesis under way.
 class Synthesis {
  public:
-  Synthesis(const NeuralParams& params, const Image& exemplar, const Target& target, Random random,
-            const Control& control)
+  Synthesis(const NeuralParams& params, const Exemplar& layered, const Target& target,
+            Random random, const Control& control)
       : params_(params),
         target_(target),
         random_(random),
         control_(control),
-        principal_(colour_pca(exemplar)),
-        levels_(level_count(params, exemplar.size(), target)),
+        principal_(colour_pca(layered.image)),
+        levels_(level_count(params, layered.image.size(), target)),
         canvas_(canvas_size(params, target)),
         start_(Clock::now()) {
+    const Image& exemplar = layered.image;
     if (needs_network(params)) {
       description_ = read_network(find_network(params.network));
       layers_ = matched_layers(params, description_);
       check_weights(params, description_, exemplar.channels);
     }
-    colours_ = seen_colours(params, description_, principal_);
+    colours_ = seen_colours(params, description_, layered);
     exemplar_ = to_planes(whitened(exemplar, colours_));
     if (needs_network(params)) {
       network_ = make_network(params, description_, exemplar_);
@@ -129,7 +141,8 @@ class Synthesis {
   at::Tensor first_picture(Size size) const {
     const int channels = colours_.channels;
     if (params_.start.empty()) {
-      // In the exemplar's colours: a hue that it lacks would have to be taken out again.
+      // In the exemplar's colours: a hue that it lacks would have to be taken out again. And with
+      // the maps that go with them: this noise alone is along the axes of all layers together.
       const at::Tensor white = noise(random_, channels, size).mul_(params_.noise);
       return to_planes(whitened(unwhitened(to_image(white), principal_), colours_));
     }
@@ -251,7 +264,7 @@ Texture run_synthesis(const NeuralParams& params, const Request& request, const 
   const Image& exemplar = request.exemplars.front().image;
   const c10::NoGradGuard no_gradients;
   start_openmp();
-  Synthesis synthesis(params, exemplar, request.target, request.random, control);
+  Synthesis synthesis(params, request.exemplars.front(), request.target, request.random, control);
   Texture texture;
   texture.image = unwhitened(to_image(synthesis.run()), synthesis.colours());
   if (params.match_histogram) match_histogram(texture.image, exemplar);

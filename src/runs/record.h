@@ -75,7 +75,9 @@ struct JobRecord {
   std::string config;       // its path as the command line had it
   std::string config_hash;  // of its text
   std::vector<std::string> set;
-  std::map<std::string, std::optional<double>> metrics;  // none: undefined; empty: not scored
+  using Values = std::map<std::string, std::optional<double>>;
+  Values metrics;                                            // none: undefined; empty: not scored
+  std::optional<std::map<std::string, Values>> map_metrics;  // of the exemplar's maps, by name
   std::optional<LossSummary> loss;
   std::vector<std::string> files;  // pictures, beside the JSON file; the texture is the first
   std::string texture;             // the hash of the first one's content
@@ -105,6 +107,7 @@ struct JobRecord {
         Field{"config_hash", &R::config_hash, "of the config's text"},
         Field{"set", &R::set, "the values of --set"},
         Field{"metrics", &R::metrics, "scores by their names"},
+        Field{"map_metrics", &R::map_metrics, "scores of maps, by the maps' names and theirs"},
         Field{"loss", &R::loss, "of an iterative method"},
         Field{"files", &R::files, "the texture and its maps"},
         Field{"texture", &R::texture, "hash of the texture's file"},

@@ -1,5 +1,6 @@
 #include "surface/normal_map.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -29,6 +30,11 @@ void store_unit(float x, float y, float z, float* to) {
     to[0] = to[1] = 0;
     to[2] = 1;
   }
+}
+
+void check_normal_map(const Image& picture) {
+  if (picture.channels < 3)
+    throw Error("a normal map has {} channels, allowed are 3 or more", picture.channels);
 }
 
 }  // namespace
@@ -66,9 +72,29 @@ Image normals_to_colours(const Image& normals, GreenAxis green) {
   return picture;
 }
 
+Image as_colours(const Image& normal_map) {
+  check_normal_map(normal_map);
+  Image picture = normal_map;
+  if (std::none_of(picture.pixels.begin(), picture.pixels.end(), [](float v) { return v < 0; }))
+    return picture;
+  for (float& value : picture.pixels) value = (value + 1) / 2;
+  return picture;
+}
+
+void make_unit(float* colour) {
+  float n[3];
+  store_unit(2 * colour[0] - 1, 2 * colour[1] - 1, 2 * colour[2] - 1, n);
+  for (int c = 0; c < 3; ++c) colour[c] = (n[c] + 1) / 2;
+}
+
+void make_unit(Image& picture, int first) {
+  for_each_row(picture.height, [&](int y) {
+    for (int x = 0; x < picture.width; ++x) make_unit(picture.at(x, y) + first);
+  });
+}
+
 Image colours_to_normals(const Image& picture, GreenAxis green) {
-  if (picture.channels < 3)
-    throw Error("a normal map has {} channels, allowed are 3 or more", picture.channels);
+  check_normal_map(picture);
   const float up = green == GreenAxis::up ? 1.0f : -1.0f;
   Image normals(picture.size(), 3);
   for_each_row(picture.height, [&](int y) {

@@ -22,6 +22,17 @@ Image normals_from_height(const Image& height, double strength, Tile wraps);
 /// The picture of unit normals, RGB = (N + 1) / 2, so that 8 bits hold 255 (N + 1) / 2.
 Image normals_to_colours(const Image& normals, GreenAxis green);
 
+/// A normal map as such a picture, whatever its file holds: components of [−1, 1] as they are (some
+/// write them so in floats, and then one is negative) become (component + 1) / 2. Throws Error for
+/// fewer than three channels.
+Image as_colours(const Image& normal_map);
+
+/// Brings the normals in channels first to first + 2 of a picture to unit length, as colours; those
+/// of no length become (0, 0, 1).
+void make_unit(Image& picture, int first = 0);
+/// The same for one pixel's three channels.
+void make_unit(float* colour);
+
 /// The unit normals of such a picture: N = 2 RGB − 1, divided by its length; a vector of no length
 /// becomes (0, 0, 1). Channels beyond the third are left out. Throws Error for fewer than three.
 Image colours_to_normals(const Image& picture, GreenAxis green);

@@ -223,7 +223,7 @@ TEST_F(ConfigText, ABareWordIsAFileBesideTheConfig) {
                               "[[method]]\nname = 'm'\nkind = 'neural'\nstart = 'photo'\n"
                               "preset = 'gatys'\nweights = 'photo'\nnetwork = 'vgg19'\n");
   EXPECT_EQ(config.exemplars[0].image, folder_ / "photo");
-  EXPECT_EQ(config.exemplars[0].maps.at("height"), folder_ / "photo");
+  EXPECT_EQ(config.exemplars[0].maps.at("height").image, folder_ / "photo");
   const auto& params = std::get<NeuralParams>(config.methods[0].method);
   EXPECT_EQ(params.start, folder_ / "photo");
   EXPECT_EQ(params.weights, folder_ / "photo");

@@ -1,8 +1,10 @@
 // Exemplars with maps: read with the picture, made with it, written beside it.
 #include <gtest/gtest.h>
 
+#include "jobs/map_file.h"
 #include "jobs/plan.h"
 #include "jobs/run_folder.h"
+#include "jobs/settings.h"
 #include "metrics/scores.h"
 #include "signal/resize.h"
 
@@ -153,12 +155,106 @@ TEST_F(Maps, MistakesInTheTableAreFoundWithTheirPlace) {
     return line;
   };
   EXPECT_EQ(with("{ height = 'no.png' }"), "c.toml:4:10: there is no file no.png");
-  EXPECT_EQ(with("{ height = 3 }"), "c.toml:4:10: 'height' is a whole number, allowed is a file");
+  EXPECT_EQ(with("{ height = 3 }"),
+            "c.toml:4:10: 'height' is a whole number, allowed is a file, or a table of image, "
+            "kind, green");
   EXPECT_EQ(with("{ height = '' }"), "c.toml:4:1: the map 'height' has no file");
   EXPECT_EQ(with("{ 'a/b' = 'h.png' }"), "c.toml:4:1: name 'a/b' is not fit for a file name");
   EXPECT_EQ(with("{ '' = 'h.png' }"), "c.toml:4:1: a name is empty");
   EXPECT_EQ(with("'h.png'"),
             "c.toml:4:1: 'maps' is a text, allowed is a table of files: { name = \"file.png\" }");
+}
+
+TEST_F(Maps, OfNormalsMayBeTablesAndMistakesThereHaveTheirPlace) {
+  const auto with = [&](const std::string& maps) {
+    std::string line = refusal("[[exemplar]]\nname = 'e'\nimage = 'e.png'\nmaps = " + maps +
+                               "\n[[method]]\nname = 'b'\nkind = 'quilting'\n");
+    const std::string folder = folder_.string() + "/";
+    for (auto at = line.find(folder); at != std::string::npos; at = line.find(folder))
+      line.erase(at, folder.size());
+    return line;
+  };
+  EXPECT_EQ(with("{ n = { image = 'h.png', kind = 'normals' } }"),
+            "c.toml:4:33: unknown kind 'normals' (did you mean 'normal'?)");
+  EXPECT_EQ(with("{ n = { image = 'h.png', gren = 'up' } }"),
+            "c.toml:4:33: unknown key 'gren' (did you mean 'green'?)");
+  EXPECT_EQ(with("{ n = { kind = 'normal' } }"), "c.toml:4:14: key 'image' is missing");
+  EXPECT_EQ(with("{ n = { image = 'h.png', kind = 'normal' } }"),
+            "c.toml:1:1: the map h.png has 1 channels: kind = \"normal\" needs 3");
+  const Config config = parse_config(
+      "[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"
+      "maps = { n = { image = 'e.png', kind = 'normal', green = 'down' }, h = 'h.png' }\n"
+      "[[method]]\nname = 'b'\nkind = 'quilting'\n",
+      folder_ / "c.toml");
+  const auto& maps = config.exemplars.at(0).maps;
+  EXPECT_EQ(maps.at("n"), (MapFile{folder_ / "e.png", MapKind::normal, GreenAxis::down}));
+  EXPECT_EQ(maps.at("h"), (MapFile{folder_ / "h.png", {}, {}}));
+  const Json json = config_to_json(config)["exemplar"][0]["maps"];
+  EXPECT_EQ(json["h"], "h.png");
+  EXPECT_EQ(json["n"], (Json{{"image", "e.png"}, {"kind", "normal"}, {"green", "down"}}));
+}
+
+TEST_F(Maps, KindsAreGuessedFromNamesFilesAndValues) {
+  Image normals({8, 8}, 3, 0.5f);
+  for (std::size_t i = 2; i < normals.pixels.size(); i += 3) normals.pixels[i] = 1;
+  const Image grey({8, 8}, 1), colours({8, 8}, 3, 0.3f);
+  const auto kind = [](const std::string& map, const std::string& file, const Image& values) {
+    return kind_of_map(map, {file, {}, {}}, values);
+  };
+  EXPECT_EQ(kind("normal", "a.png", colours), MapKind::normal);
+  EXPECT_EQ(kind("n", "wall_Normal.png", colours), MapKind::normal);
+  EXPECT_EQ(kind("n", "Bricks_NormalDX.jpg", colours), MapKind::normal);
+  EXPECT_EQ(kind("n", "a.png", normals), MapKind::normal) << "by its values";
+  EXPECT_EQ(kind("n", "a.png", colours), MapKind::colour);
+  EXPECT_EQ(kind("albedo", "a.png", normals), MapKind::colour);
+  EXPECT_EQ(kind("normal", "a.png", grey), MapKind::scalar) << "it has one channel";
+  EXPECT_EQ(kind("height", "normal.png", normals), MapKind::scalar) << "the map's name first";
+  EXPECT_EQ(kind("m", "wall_mask.png", grey), MapKind::alpha);
+  EXPECT_EQ(kind("opacity", "a.png", grey), MapKind::alpha);
+  EXPECT_EQ(kind("orm", "a.png", colours), MapKind::scalar);
+  EXPECT_EQ(kind("abnormal", "a.png", grey), MapKind::scalar);
+  EXPECT_EQ(kind_of_map("normal", {"a.png", MapKind::scalar, {}}, normals), MapKind::scalar);
+  EXPECT_EQ(green_of_map("n", {"Bricks_NormalDX.jpg", {}, {}}), GreenAxis::down);
+  EXPECT_EQ(green_of_map("n", {"Bricks_NormalGL.jpg", {}, {}}), GreenAxis::up);
+  EXPECT_EQ(green_of_map("n", {"Bricks_NormalDX.jpg", {}, GreenAxis::up}), GreenAxis::up);
+}
+
+// Signed normals in floats: after a method that mixes and after one that copies, they are of unit
+// length and signed, with green as it was.
+TEST_F(Maps, NormalsComeOutAsTheyCameIn) {
+  const Image picture = read_image(folder_ / "e.png").image;
+  Image normals(picture.size(), 3);
+  for (std::size_t i = 0; i < normals.pixels.size(); i += 3) {
+    const float x = 0.6f * picture.pixels[i], y = -0.5f * picture.pixels[i + 1];
+    const float length = std::sqrt(x * x + y * y + 1);
+    normals.pixels[i] = x / length;
+    normals.pixels[i + 1] = y / length;
+    normals.pixels[i + 2] = 1 / length;
+  }
+  write_image(folder_ / "n.exr", normals, {PixelType::float32, "", {}});
+  const std::string text =
+      "size = [40, 24]\n[[exemplar]]\nname = 'e'\nimage = 'e.png'\nmaps = { normal = 'n.exr' }\n"
+      "[[method]]\nname = 'q'\nkind = 'quilting'\npatch_size = 8\n"
+      "[[method]]\nname = 'p'\nkind = 'pyramid'\n";
+  ASSERT_EQ(run_text(text).done, 2);
+  for (const std::string job : {"e/q/seed1", "e/p/seed1"}) {
+    const Image map = read_image(out(job + "_normal.exr")).image;
+    for (std::size_t i = 0; i < map.pixels.size(); i += 3) {
+      const float* n = map.pixels.data() + i;
+      ASSERT_NEAR(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1, 1e-5) << job;
+      ASSERT_GE(n[0], -0.1f) << job;
+      ASSERT_LE(n[1], 0.1f) << job << ": green points as it did";
+    }
+    const auto scores = record(job).map_metrics->at("normal");
+    EXPECT_LT(*scores.at("normal_angle"), 10) << job;
+    EXPECT_TRUE(scores.contains("normal_bend"));
+  }
+  run_text(text, {}, {"exemplar.e.max_side=16"});
+  const Image small = read_image(out("e/exemplar_normal.exr")).image;
+  for (std::size_t i = 0; i < small.pixels.size(); i += 3)
+    ASSERT_NEAR(small.pixels[i] * small.pixels[i] + small.pixels[i + 1] * small.pixels[i + 1] +
+                    small.pixels[i + 2] * small.pixels[i + 2],
+                1, 1e-5);
 }
 
 TEST_F(Maps, ThatCannotBeReadFailTheirJobsOnly) {

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "io/field_values.h"
+
+namespace gramloom {
+
+// Parameters of a field list as options of a command: "occlusion_radius" is --occlusion-radius, and
+// a bool is a flag.
+
+namespace detail {
+
+// What CLI11 says after the option's name; "" where every number is allowed.
+template <class T>
+CLI::Validator range_of(const Range& range) {
+  return {[range](const std::string& word) -> std::string {
+            double number = 0;
+            if (!CLI::detail::lexical_cast(word, number) || range.contains(number)) return "";
+            return fmt::format("{} is not {}", word, allowed_values<element_t<T>>(range));
+          },
+          ""};
+}
+
+template <NamedEnum E>
+CLI::Option* add_word(CLI::App& command, const std::string& option, E& value,
+                      const std::string& meaning) {
+  const std::vector<std::string> words(enum_names<E>.begin(), enum_names<E>.end());
+  return command
+      .add_option_function<std::string>(
+          option,
+          [&value, words](const std::string& word) {
+            value = static_cast<E>(std::find(words.begin(), words.end(), word) - words.begin());
+          },
+          meaning)
+      ->check(CLI::IsMember(words))
+      ->type_name("");
+}
+
+}  // namespace detail
+
+/// `params` must stay where it is until the command line is read. Returns the options.
+template <class Params>
+std::vector<CLI::Option*> add_field_options(CLI::App& command, Params& params,
+                                            const std::string& group) {
+  std::vector<CLI::Option*> options;
+  for_each_field<Params>([&](const auto& field) {
+    using T = typename std::decay_t<decltype(field)>::value_type;
+    std::string option = fmt::format("--{}", field.name);
+    std::replace(option.begin(), option.end(), '_', '-');
+    T& value = params.*field.member;
+    std::string meaning(field.meaning);
+    if (!field.unit.empty()) meaning += fmt::format(" ({})", field.unit);
+    const std::string standard = value_to_text(value);
+    CLI::Option* added = nullptr;
+    if constexpr (std::is_same_v<T, bool>) {
+      added = command.add_flag(option, value, meaning);
+    } else if constexpr (NamedEnum<T>) {
+      added =
+          detail::add_word(command, option, value, meaning + "; " + std::string(to_word(value)));
+    } else {
+      if (standard != "[]") meaning += "; " + standard;
+      added = command.add_option(option, value, meaning)
+                  ->check(detail::range_of<T>(field.range))
+                  ->type_name("");
+      if constexpr (is_list<T>) added->delimiter(',');
+    }
+    options.push_back(added->group(group));
+  });
+  return options;
+}
+
+}  // namespace gramloom

@@ -1,0 +1,61 @@
+#include "jobs/protected_files.h"
+
+#include "core/error.h"
+#include "io/image_file.h"
+
+namespace gramloom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has_mark(const fs::path& picture, const std::string& mark) {
+  try {
+    std::error_code ignored;
+    return fs::is_regular_file(picture, ignored) && read_image(picture).metadata.contains(mark);
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+bool is_there(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(fs::symlink_status(file, ignored));
+}
+
+ProtectedFiles::ProtectedFiles(const std::vector<InputFile>& inputs) {
+  for (const InputFile& input : inputs)
+    if (const auto identity = identity_of(input.file)) inputs_.emplace(*identity, input);
+}
+
+std::optional<ProtectedFiles::Identity> ProtectedFiles::identity_of(const fs::path& file) {
+  struct stat status {};
+  if (stat(file.c_str(), &status) != 0) return std::nullopt;
+  return Identity{status.st_dev, status.st_ino};
+}
+
+void ProtectedFiles::check(const fs::path& file) const {
+  const auto identity = identity_of(file);
+  const auto found = identity ? inputs_.find(*identity) : inputs_.end();
+  if (found == inputs_.end()) return;
+  const InputFile& input = found->second;
+  const std::string name = file.lexically_normal().string();
+  std::error_code ignored;
+  const bool same_name = fs::absolute(file, ignored).lexically_normal() ==
+                         fs::absolute(input.file, ignored).lexically_normal();
+  if (same_name) throw Error("would write over {}, which {}", name, input.reader);
+  throw Error("would write over {}, the same file as {}, which {}", name, input.file.string(),
+              input.reader);
+}
+
+void check_replaced(const fs::path& file, const ProtectedFiles& inputs, const std::string& mark) {
+  if (!is_there(file)) return;
+  inputs.check(file);
+  if (!has_mark(file, mark))
+    throw Error("would replace {}, which this command did not make",
+                file.lexically_normal().string());
+}
+
+}  // namespace gramloom

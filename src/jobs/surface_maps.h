@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/request.h"
+#include "jobs/config.h"
+
+namespace gramloom {
+
+/// Adds the maps that the config's [surface] asks for, made of the texture's map "height"; without
+/// one, a note says so. Throws Error for a height of several channels that differ.
+void add_surface_maps(Texture& texture, const Config& config, std::vector<std::string>& notes);
+
+}  // namespace gramloom

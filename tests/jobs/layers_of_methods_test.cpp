@@ -1,0 +1,125 @@
+// Maps stay maps: what every method of the program's own list makes of an exemplar's layers.
+#include <cmath>
+
+#include "jobs/every_method.h"
+
+namespace gramloom {
+namespace {
+
+/// Colours in grain, a height that is a function of them, normals of [0, 1]³ and unit length that
+/// another function tells, and alpha.
+Exemplar layered(Size size) {
+  const Image colours = grain(size, 3);
+  Exemplar exemplar{Image(size, 8),
+                    {{"", MapKind::colour, 0, 3},
+                     {"alpha", MapKind::alpha, 3, 1},
+                     {"height", MapKind::scalar, 4, 1},
+                     {"normal", MapKind::normal, 5, 3}}};
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
+      const float* c = colours.at(x, y);
+      float* p = exemplar.image.at(x, y);
+      std::copy_n(c, 3, p);
+      p[3] = c[0] > 0.5f ? 1.0f : 0.0f;
+      p[4] = 0.7f * c[0] + 0.2f * c[1];
+      const float nx = c[1] - 0.5f, ny = c[2] - 0.5f;
+      const float length = std::sqrt(nx * nx + ny * ny + 1);
+      p[5] = (nx / length + 1) / 2;
+      p[6] = (ny / length + 1) / 2;
+      p[7] = (1 / length + 1) / 2;
+    }
+  return exemplar;
+}
+
+template <class Params>
+class Layers : public OfMethod<Params> {
+ protected:
+  static Texture make(const Exemplar& exemplar, Size size = {56, 44}) {
+    const Params params = OfMethod<Params>::quick();
+    if constexpr (std::is_constructible_v<Method, std::in_place_type_t<Params>>) {
+      return run_method(Method(params), {{exemplar}, {size, Tile::both}, Random(2)}, {});
+    } else {
+      return run_method(Method(MarkovParams(params)), {{exemplar}, {size, Tile::both}, Random(2)},
+                        {});
+    }
+  }
+};
+TYPED_TEST_SUITE(Layers, EveryMethod, KindNames);
+
+TYPED_TEST(Layers, NormalsComeOutOfUnitLengthAndCopiesKeepTheirBytes) {
+  if (!TestFixture::takes_exemplar) GTEST_SKIP() << "takes no exemplar";
+  const Exemplar exemplar = layered({48, 40});
+  const Texture texture = this->make(exemplar);
+  for (int y = 0; y < texture.image.height; ++y)
+    for (int x = 0; x < texture.image.width; ++x) {
+      const float* n = texture.image.at(x, y) + 5;
+      const double length =
+          std::hypot(2.0 * double{n[0]} - 1, 2.0 * double{n[1]} - 1, 2.0 * double{n[2]} - 1);
+      ASSERT_NEAR(length, 1, 1e-5) << x << ", " << y;
+      ASSERT_GT(n[2], 0.5f);
+    }
+  if (texture.source.empty()) return;
+  const Image copied = arranged(texture.source, {exemplar});
+  std::size_t same = 0;
+  for (std::size_t i = 0; i < copied.pixels.size(); ++i)
+    same += copied.pixels[i] == texture.image.pixels[i] ? 1 : 0;
+  EXPECT_GT(same, TestFixture::copies ? copied.pixels.size() / 20 : 0);
+}
+
+/// How far the layers are from the functions that tell them: the root of the mean square over the
+/// height's and the normals' own deviation.
+double disobedience(const Image& image) {
+  double height = 0, normal = 0, sum = 0, squares = 0;
+  const double count = image.width * image.height;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const float* p = image.at(x, y);
+      const double h = 0.7 * double{p[0]} + 0.2 * double{p[1]} - double{p[4]};
+      const double nx = double{p[1]} - 0.5, ny = double{p[2]} - 0.5;
+      const double length = std::sqrt(nx * nx + ny * ny + 1);
+      const double dx = (nx / length + 1) / 2 - double{p[5]};
+      const double dy = (ny / length + 1) / 2 - double{p[6]};
+      height += h * h;
+      normal += dx * dx + dy * dy;
+      sum += double{p[4]};
+      squares += double{p[4]} * double{p[4]};
+    }
+  const double deviation = std::sqrt(std::max(1e-12, squares / count - sum * sum / count / count));
+  return std::max(std::sqrt(height / count) / deviation, std::sqrt(normal / count) / deviation);
+}
+
+TYPED_TEST(Layers, AFunctionOfAnotherStillObeysIt) {
+  if (!TestFixture::takes_exemplar) GTEST_SKIP() << "takes no exemplar";
+  const Exemplar exemplar = layered({48, 40});
+  ASSERT_LT(disobedience(exemplar.image), 1e-5);
+  const Texture texture = this->make(exemplar);
+  // Methods that copy whole pixels keep it; averages of a few nearly do, as the functions are
+  // smooth. What is made channel by channel keeps no more than what is linear.
+  const double limit = TestFixture::copies ? 0.1 : 0.35;
+  EXPECT_LT(disobedience(texture.image), limit);
+  if (TypeParam::kind == "quilting" || TypeParam::kind == "pixel" ||
+      TypeParam::kind == "histogram") {
+    EXPECT_LT(disobedience(texture.image), 1e-5);
+  }
+}
+
+TYPED_TEST(Layers, TheUnitsOfAMapChangeNothingElse) {
+  if (TypeParam::kind != "pyramid" && TypeParam::kind != "phase") GTEST_SKIP() << "weighs channels";
+  const Exemplar exemplar = layered({48, 40});
+  Exemplar scaled = exemplar;
+  for (std::size_t i = 4; i < scaled.image.pixels.size(); i += 8) scaled.image.pixels[i] *= 1000;
+  EXPECT_EQ(extract_channels(this->make(exemplar).image, 0, 3),
+            extract_channels(this->make(scaled).image, 0, 3));
+}
+
+TEST(LayersOfPyramid, ColoursAreTheSameWithMapsAndWithout) {
+  const Exemplar exemplar = layered({48, 40});
+  const Exemplar bare{extract_channels(exemplar.image, 0, 3)};
+  const auto make = [](const Exemplar& of) {
+    return synthesise(PyramidParams{}, {{of}, {{56, 44}}, Random(2)}, {}).image;
+  };
+  EXPECT_EQ(extract_channels(make(exemplar), 0, 3), make(bare));
+}
+
+}  // namespace
+}  // namespace gramloom

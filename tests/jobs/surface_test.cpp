@@ -1,0 +1,102 @@
+// [surface]: maps of every result that has a height, made by the job and written beside it.
+#include <gtest/gtest.h>
+
+#include "jobs/plan.h"
+#include "jobs/run_folder.h"
+#include "surface/normal_map.h"
+
+namespace gramloom {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string stone =
+    "size = [48, 40]\ntile = 'both'\n"
+    "[[method]]\nname = 'stone'\nkind = 'procedural'\ntexture = 'stone_wall'\nsamples = 1\n"
+    "[[method]]\nname = 'granite'\nkind = 'procedural'\ntexture = 'granite'\nsamples = 1\n";
+const std::string normal = "[surface]\nnormal = true\nstrength = 20\n";
+
+class SurfaceOfJobs : public Runner {
+ protected:
+  std::string refusal(const std::string& text) const {
+    try {
+      run_text(text);
+    } catch (const ConfigError& error) {
+      const std::string line = error.what();
+      return line.substr(line.find("c.toml"));
+    }
+    return "";
+  }
+  // The exemplar with a height.
+  std::string exemplar(int channels) const {
+    const Image picture = read_image(folder_ / "e.png").image;
+    write_image(folder_ / "h.png", extract_channels(picture, 0, channels),
+                {PixelType::uint16, "", {}});
+    return "size = [40, 24]\n[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"
+           "maps = { height = 'h.png' }\n[[method]]\nname = 'b'\nkind = 'quilting'\npatch_size = "
+           "8\n";
+  }
+};
+
+TEST_F(SurfaceOfJobs, ProceduralHeightsGetTheirMaps) {
+  ASSERT_EQ(run_text(stone + normal + "occlusion = true\ngreen = 'down'\n").done, 2);
+  const JobRecord wall = record("procedural/stone/seed1");
+  for (const std::string name : {"seed1_height.png", "seed1_normal.png", "seed1_occlusion.png"})
+    EXPECT_NE(std::find(wall.files.begin(), wall.files.end(), name), wall.files.end()) << name;
+  const ImageFile height = read_image(out("procedural/stone/seed1_height.png"));
+  const ImageFile map = read_image(out("procedural/stone/seed1_normal.png"));
+  EXPECT_EQ(map.encoding.pixel_type, height.encoding.pixel_type) << "with steps as fine";
+  const Image expected =
+      normals_to_colours(normals_from_height(height.image, 20, Tile::both), GreenAxis::down);
+  for (std::size_t i = 0; i < expected.pixels.size(); ++i)
+    ASSERT_NEAR(map.image.pixels[i], expected.pixels[i], 2e-3);
+  EXPECT_EQ(wall.settings["surface"]["strength"], 20);
+  EXPECT_EQ(record("procedural/granite/seed1").notes,
+            (std::vector<std::string>{"no normal, occlusion: the texture has no map 'height'"}));
+}
+
+TEST_F(SurfaceOfJobs, ResumeKnowsThem) {
+  run_text(stone + normal);
+  EXPECT_EQ(resume(stone + normal).skipped, 2);
+  EXPECT_EQ(resume(stone + normal, {"surface.strength=4"}).done, 2) << "another strength";
+  fs::remove(out("procedural/stone/seed1_normal.png"));
+  EXPECT_EQ(resume(stone + normal, {"surface.strength=4"}).done, 1) << "a map that is gone";
+  EXPECT_EQ(resume(stone).done, 2);
+  EXPECT_FALSE(fs::exists(out("procedural/stone/seed1_normal.png"))) << "of the result before";
+}
+
+TEST_F(SurfaceOfJobs, ExemplarsHeightsToo) {
+  ASSERT_EQ(run_text(exemplar(1) + normal).done, 1);
+  EXPECT_EQ(record("e/b/seed1").files,
+            (std::vector<std::string>{"seed1.png", "seed1_height.png", "seed1_normal.png"}));
+  EXPECT_EQ(read_image(out("e/b/seed1_normal.png")).encoding.pixel_type, PixelType::uint16);
+  EXPECT_TRUE(record("e/b/seed1").map_metrics->at("height").contains("value_distance"));
+}
+
+TEST_F(SurfaceOfJobs, MistakesAreOneLineWithTheirPlace) {
+  const std::string text = exemplar(3);
+  EXPECT_EQ(refusal(text + normal), "c.toml:2:1: " + (folder_ / "h.png").string() +
+                                        ": a height map has 3 channels that differ, allowed is 1");
+  EXPECT_EQ(run_text(text).done, 1) << "nobody asked";
+  EXPECT_EQ(refusal("[surface]\nnormal = true\n[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"
+                    "[[method]]\nname = 'b'\nkind = 'quilting'\n"),
+            "c.toml:1:2: 'surface' makes maps of heights: no exemplar has a map called 'height'");
+  EXPECT_EQ(refusal("[surface]\nnormal = true\n[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"
+                    "maps = { height = 'h.png', normal = 'e.png' }\n"
+                    "[[method]]\nname = 'b'\nkind = 'quilting'\n"),
+            "c.toml:1:2: the map 'normal' is the exemplar's own, of 'e': leave one of the two out");
+  EXPECT_EQ(refusal(stone + "[surface]\nstrength = 0\n"),
+            "c.toml:14:1: 'strength' = 0: allowed are 0.001 to 100000");
+  EXPECT_EQ(refusal(stone + "[surface]\nnormals = true\n"),
+            "c.toml:14:1: unknown key 'normals' (did you mean 'normal'?)");
+}
+
+// A user's file under the name of a map is never replaced.
+TEST_F(SurfaceOfJobs, AForeignFileUnderAMapsNameIsRefused) {
+  run_text(stone);
+  write_image(out("procedural/stone/seed1_normal.png"), Image({4, 4}, 3), {});
+  EXPECT_THROW(run_text(stone + normal), ConfigError);
+}
+
+}  // namespace
+}  // namespace gramloom
