@@ -20,6 +20,18 @@ function scoreList(job) {
       el('td', { class: 'rank' }, rankText(job, score))))));
 }
 
+/** Scores of maps have no columns: each kind of map has others. */
+function mapScoreList(job) {
+  const maps = Object.entries(job.map_metrics ?? {});
+  if (maps.length === 0) return null;
+  const help = new Map(data.map_metrics.map((metric) => [metric.name, metric.meaning]));
+  return el('table', { class: 'own-scores' },
+    el('caption', {}, 'Scores of its maps; 0 is as the exemplar\'s'),
+    el('tbody', {}, maps.flatMap(([map, values]) => Object.entries(values).map(([name, value]) =>
+      el('tr', {}, el('th', { scope: 'row', title: help.get(name) ?? '' }, `${map}: ${name}`),
+        el('td', {}, value === null ? '' : String(Number(value.toPrecision(3)))))))));
+}
+
 /** A value as TOML. Quoted texts are the same in TOML and JSON, but for U+007F. */
 function toToml(value) {
   if (value === 'inf' || value === '-inf') return value;
@@ -78,6 +90,7 @@ function drawDetails(subject) {
       'The copy map: where in the exemplar each pixel came from. Red grows to the right, green downwards, ' +
       'blue against both. A patch of smooth colour is a piece taken over whole; copied blocks are at full brightness.'),
     scoreList(job),
+    mapScoreList(job),
     el('h3', {}, 'Make it again'),
     el('div', { class: 'code' }, el('code', { id: 'command' }, command),
       copyButton(() => command, 'Copy the command')),

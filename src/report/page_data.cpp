@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "io/json_fields.h"
-#include "metrics/scores.h"
+#include "metrics/map_scores.h"
 #include "report/preview.h"
 
 namespace gramloom {
@@ -29,9 +29,9 @@ struct ShownExemplar {
   }
 };
 
-Json metrics_to_json() {
+Json metrics_to_json(std::span<const Metric> all) {
   Json list = Json::array();
-  for (const Metric& metric : metrics())
+  for (const Metric& metric : all)
     list.push_back({{"name", metric.name},
                     {"group", metric.group},
                     {"meaning", metric.meaning},
@@ -163,6 +163,7 @@ Json job_to_json(const RunOnDisk& run, const JobOnDisk& job, const ShownExemplar
           {"peak_memory_mb", record.peak_memory_mb},
           {"settings", record.settings},
           {"metrics", to_json_value(record.metrics)},
+          {"map_metrics", to_json_value(record.map_metrics)},
           {"score_error", record.score_error},
           {"origin", origin_of(run, record)},
           {"machine", to_json_value(record.machine)},
@@ -221,10 +222,15 @@ Json page_data(const RunOnDisk& run) {
       methods.push_back(method);
     jobs.push_back(job_to_json(run, job, sources[exemplar], trouble));
   }
-  return {{"title", title_of(run)}, {"run", run_to_json(run.run)},
-          {"trouble", trouble},     {"metrics", metrics_to_json()},
-          {"exemplars", exemplars}, {"methods", methods},
-          {"jobs", jobs},           {"diversity", to_json_value(run.diversity)}};
+  return {{"title", title_of(run)},
+          {"run", run_to_json(run.run)},
+          {"trouble", trouble},
+          {"metrics", metrics_to_json(metrics())},
+          {"exemplars", exemplars},
+          {"methods", methods},
+          {"map_metrics", metrics_to_json(map_metrics())},
+          {"jobs", jobs},
+          {"diversity", to_json_value(run.diversity)}};
 }
 
 }  // namespace gramloom

@@ -8,7 +8,7 @@
 #include "io/image_file.h"
 #include "io/temp_folder.h"
 #include "io/text_file.h"
-#include "metrics/scores.h"
+#include "metrics/map_scores.h"
 #include "report/page.h"
 
 namespace gramloom {
@@ -118,6 +118,17 @@ TEST_F(PageData, HasEveryMetricWithItsDirection) {
     EXPECT_EQ(list[i]["name"], metrics()[i].name);
     EXPECT_EQ(list[i]["higher_is_better"], metrics()[i].higher_is_better);
   }
+}
+
+TEST_F(PageData, MapsHaveScoresOfTheirOwn) {
+  const Json scores{{"normal", {{"normal_angle", 2.5}, {"normal_bend", nullptr}}}};
+  write_job("e/m/seed1", {{"map_metrics", scores}});
+  write_run({{"e/m/seed1", {{"status", "done"}}}});
+  const Json data = read();
+  EXPECT_EQ(data["map_metrics"].size(), map_metrics().size());
+  EXPECT_EQ(data["map_metrics"][0]["name"], "normal_angle");
+  ASSERT_EQ(data["jobs"].size(), 1u);
+  EXPECT_EQ(data["jobs"][0]["map_metrics"], scores);
 }
 
 TEST_F(PageData, JobsThatDidNotComeOutHaveTheirPlace) {
