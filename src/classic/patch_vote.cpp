@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/simd.h"
 #include "core/threads.h"
@@ -14,6 +15,57 @@ namespace {
 constexpr int border = field_patch - 1;
 typedef float Pixel
     __attribute__((vector_size(field_features * sizeof(float)), aligned(4), may_alias));
+typedef float Pair
+    __attribute__((vector_size(2 * field_features * sizeof(float)), aligned(4), may_alias));
+
+/// One row of patches, and what their `line`th lines say.
+struct PatchRow {
+  const std::ptrdiff_t* offsets;  // of what each would say about pixel 0, among the values
+  const float* weights;
+  int count;
+  const float* values;  // of the exemplar
+
+  template <class T>
+  GRAMLOOM_INLINE T said(int patch, int pixel) const {
+    return weights[patch] *
+           *reinterpret_cast<const T*>(values + offsets[patch] + pixel * field_features);
+  }
+};
+
+/// Adds what patches [first, end) say about a pixel.
+GRAMLOOM_INLINE void add_pixel(const PatchRow& row, int pixel, int first, int end, float* sums) {
+  Pixel& sum = *reinterpret_cast<Pixel*>(sums + pixel * field_features);
+  Pixel colours = sum;
+  for (int patch = first; patch < end; ++patch) colours += row.said<Pixel>(patch, pixel);
+  sum = colours;
+}
+
+/// The same for a pixel and the next, each with all of its patches, of which they share all but
+/// one.
+GRAMLOOM_INLINE void add_pair(const PatchRow& row, int pixel, float* sums) {
+  Pixel* sum = reinterpret_cast<Pixel*>(sums + pixel * field_features);
+  const Pixel left = sum[0] + row.said<Pixel>(pixel - border, pixel);
+  Pair both = __builtin_shufflevector(left, sum[1], 0, 1, 2, 3, 4, 5, 6, 7);
+  for (int patch = pixel - border + 1; patch <= pixel; ++patch)
+    both += row.said<Pair>(patch, pixel);
+  sum[0] = __builtin_shufflevector(both, both, 0, 1, 2, 3);
+  sum[1] = __builtin_shufflevector(both, both, 4, 5, 6, 7) + row.said<Pixel>(pixel + 1, pixel + 1);
+}
+
+/// Adds to each pixel's weight those of its patches.
+GRAMLOOM_INLINE void add_weights(const PatchRow& row, float* __restrict weights) {
+  const float* __restrict of_patch = row.weights;
+  for (int pixel = 0; pixel < std::min(border, row.count); ++pixel)
+    for (int patch = 0; patch <= pixel; ++patch) weights[pixel] += of_patch[patch];
+  for (int pixel = border; pixel < row.count; ++pixel) {
+    float weight = weights[pixel];
+    for (int k = 0; k < field_patch; ++k) weight += of_patch[pixel - border + k];
+    weights[pixel] = weight;
+  }
+  for (int pixel = row.count; pixel < row.count + border; ++pixel)
+    for (int patch = std::max(0, pixel - border); patch < row.count; ++patch)
+      weights[pixel] += of_patch[patch];
+}
 
 /// Adds one row of patches' `line`th lines: weight · values to sums, weight to weights. Pixel by
 /// pixel, whose sums stay in registers: added patch by patch, each would wait for the stores of the
@@ -21,27 +73,19 @@ typedef float Pixel
 GRAMLOOM_SIMD void add_lines(const PatchOrigin* origins, const float* patch_weights, int count,
                              const Image& exemplar, int line, float* sums, float* weights,
                              std::ptrdiff_t* offsets) {
-  const float* values = exemplar.pixels.data();
-  for (int x = 0; x < count; ++x)  // of what the patch would say about pixel 0
+  for (int x = 0; x < count; ++x)
     offsets[x] =
         (static_cast<std::ptrdiff_t>(origins[x].y + line) * exemplar.width + origins[x].x - x) *
         field_features;
-  const auto add = [&](int pixel, int first, int end) __attribute__((always_inline)) {
-    Pixel& sum = *reinterpret_cast<Pixel*>(sums + pixel * field_features);
-    Pixel colours = sum;
-    float weight = weights[pixel];
-    for (int x = first; x < end; ++x) {
-      colours += patch_weights[x] *
-                 *reinterpret_cast<const Pixel*>(values + offsets[x] + pixel * field_features);
-      weight += patch_weights[x];
-    }
-    sum = colours;
-    weights[pixel] = weight;
-  };
-  for (int pixel = 0; pixel < std::min(border, count); ++pixel) add(pixel, 0, pixel + 1);
-  for (int pixel = border; pixel < count; ++pixel) add(pixel, pixel - border, pixel + 1);
-  for (int pixel = count; pixel < count + border; ++pixel)
-    add(pixel, std::max(0, pixel - border), count);
+  const PatchRow row{offsets, patch_weights, count, exemplar.pixels.data()};
+  add_weights(row, weights);
+  for (int pixel = 0; pixel < std::min(border, count); ++pixel)
+    add_pixel(row, pixel, 0, pixel + 1, sums);
+  int pixel = border;
+  for (; pixel + 1 < count; pixel += 2) add_pair(row, pixel, sums);
+  for (; pixel < count; ++pixel) add_pixel(row, pixel, pixel - border, pixel + 1, sums);
+  for (pixel = count; pixel < count + border; ++pixel)
+    add_pixel(row, pixel, std::max(0, pixel - border), count, sums);
 }
 
 /// Calls f(patch's row in the field, line of the patch) for the patches over row y of the canvas.
@@ -52,6 +96,24 @@ void for_each_patch_row(const PatchField& field, int y, F&& f) {
     if (tiles_y(field.tile))
       row = (row % field.size.height + field.size.height) % field.size.height;
     if (row >= 0 && row < field.size.height) f(row, line);
+  }
+}
+
+/// Patches' weights: (distance + floor) to the power of −5/8.
+GRAMLOOM_SIMD void weigh(const float* __restrict distances, float floor, float* __restrict weights,
+                         std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float root = std::sqrt(distances[i] + floor);
+    weights[i] = 1 / (root * std::sqrt(std::sqrt(root)));
+  }
+}
+
+/// (distance + floor) to the power of 3/8.
+GRAMLOOM_SIMD void raise(const float* __restrict distances, float floor, float* __restrict powers,
+                         std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float fourth_root = std::sqrt(std::sqrt(distances[i] + floor));
+    powers[i] = fourth_root * std::sqrt(fourth_root);
   }
 }
 
@@ -76,14 +138,10 @@ Image vote(const PatchField& field, const Image& exemplar, float floor) {
   const Size size = texture_size(field);
   Image canvas(field.size.width + border, field.size.height + border, field_features);
   std::vector<float> patch_weights(field.distance.size());
-  parallel_for(static_cast<std::int64_t>(patch_weights.size()), 4096,
-               [&](std::int64_t first, std::int64_t last) {
-                 for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last);
-                      ++i) {
-                   const float root = std::sqrt(field.distance[i] + floor);
-                   patch_weights[i] = 1 / (root * std::sqrt(std::sqrt(root)));
-                 }
-               });
+  parallel_for(std::ssize(patch_weights), 1 << 14, [&](std::int64_t first, std::int64_t last) {
+    weigh(field.distance.data() + first, floor, patch_weights.data() + first,
+          static_cast<std::size_t>(last - first));
+  });
   parallel_for(size.height, 8, [&](std::int64_t first, std::int64_t last) {
     std::vector<float> sums, weights;
     std::vector<std::ptrdiff_t> offsets(static_cast<std::size_t>(field.size.width));
@@ -102,10 +160,10 @@ Image vote(const PatchField& field, const Image& exemplar, float floor) {
               sums[static_cast<std::size_t>(x * field_features + c)];
         weights[static_cast<std::size_t>(back)] += weights[static_cast<std::size_t>(x)];
       }
+      Pixel* pixels = reinterpret_cast<Pixel*>(canvas.at(0, y));
       for (int x = 0; x < size.width; ++x)
-        for (int c = 0; c < field_features; ++c)
-          canvas.at(x, y)[c] = sums[static_cast<std::size_t>(x * field_features + c)] /
-                               weights[static_cast<std::size_t>(x)];
+        pixels[x] =
+            reinterpret_cast<const Pixel*>(sums.data())[x] / weights[static_cast<std::size_t>(x)];
     }
   });
   repeat_border(canvas, field);
@@ -122,6 +180,7 @@ std::vector<PatchOrigin> choose_pixels(const PatchField& field, const Image& can
       for (int x = 0; x < size.width; ++x) {
         const float* mean = canvas.at(x, y);
         float best = std::numeric_limits<float>::infinity();
+        PatchOrigin last_said{-1, -1};
         PatchOrigin& pixel =
             chosen[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
                    static_cast<std::size_t>(x)];
@@ -133,6 +192,8 @@ std::vector<PatchOrigin> choose_pixels(const PatchField& field, const Image& can
             PatchOrigin origin = field.nearest[field.index(column, row)];
             origin.x += i;
             origin.y += line;
+            if (origin == last_said) continue;  // of one piece with the patch before
+            last_said = origin;
             const float* value = exemplar.at(origin.x, origin.y);
             float distance = 0;
             for (int c = 0; c < field_features; ++c)
@@ -149,12 +210,12 @@ std::vector<PatchOrigin> choose_pixels(const PatchField& field, const Image& can
 }
 
 double robust_energy(const PatchField& field, float floor) {
-  double sum = 0;
-  for (const float distance : field.distance) {
-    const float fourth_root = std::sqrt(std::sqrt(distance + floor));
-    sum += double{fourth_root * std::sqrt(fourth_root)};
-  }
-  return sum;
+  std::vector<float> powers(field.distance.size());
+  parallel_for(std::ssize(powers), 1 << 14, [&](std::int64_t first, std::int64_t last) {
+    raise(field.distance.data() + first, floor, powers.data() + first,
+          static_cast<std::size_t>(last - first));
+  });
+  return std::accumulate(powers.begin(), powers.end(), 0.0);
 }
 
 }  // namespace gramloom

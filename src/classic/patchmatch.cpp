@@ -175,9 +175,9 @@ Cost estimate(const PatchmatchParams& params, const RequestSize& request) {
       area(request.size.width + exemplar.width, request.size.height + exemplar.height);
   // A level has a quarter of the work of the next finer one, but more iterations.
   const double iterations = params.iterations * 4.0 / 3 + more_iterations * 4.0 / 9;
-  return {.bytes = pixels * (72 + sizeof(Source) + 4.0 * channels) +
-                   samples * (32 + 4.0 * channels) + shifts * 8,
-          .seconds = pixels * iterations * (60 + 25.0 * params.tries) * 1e-9};
+  return {.bytes = pixels * (88 + sizeof(Source) + 4.0 * channels) +
+                   samples * (48 + 4.0 * channels) + shifts * 8,
+          .seconds = pixels * iterations * (45 + 15.0 * params.tries) * 1e-9};
 }
 
 }  // namespace gramloom

@@ -1,6 +1,9 @@
 #include "core/random.h"
 
+#include <algorithm>
+
 #include "core/portable_math.h"
+#include "core/simd.h"
 
 namespace gramloom {
 
@@ -14,6 +17,38 @@ double polynomial(const double (&coefficients)[N], double x) {
   double sum = 0;
   for (const double c : coefficients) sum = sum * x + c;
   return sum;
+}
+
+constexpr std::size_t lanes = 32;  // fewer become a list of statements that are not vectorised
+
+/// philox() of counters (block + lane, stream), lane by lane.
+GRAMLOOM_SIMD void philox_lanes(std::uint64_t block, std::uint64_t stream, std::uint64_t seed,
+                                std::uint32_t* __restrict words) {
+  std::uint32_t a[lanes], b[lanes], c[lanes], d[lanes];
+  for (std::size_t i = 0; i < lanes; ++i) {
+    a[i] = low(block + i);
+    b[i] = high(block + i);
+    c[i] = low(stream);
+    d[i] = high(stream);
+  }
+  for (std::uint32_t round = 0; round < 10; ++round) {
+    const std::uint32_t key0 = low(seed) + round * 0x9E3779B9u;
+    const std::uint32_t key1 = high(seed) + round * 0xBB67AE85u;
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const std::uint64_t p0 = std::uint64_t{0xD2511F53} * a[i];
+      const std::uint64_t p1 = std::uint64_t{0xCD9E8D57} * c[i];
+      a[i] = high(p1) ^ b[i] ^ key0;
+      b[i] = low(p1);
+      c[i] = high(p0) ^ d[i] ^ key1;
+      d[i] = low(p0);
+    }
+  }
+  for (std::size_t i = 0; i < lanes; ++i) {
+    words[4 * i] = a[i];
+    words[4 * i + 1] = b[i];
+    words[4 * i + 2] = c[i];
+    words[4 * i + 3] = d[i];
+  }
 }
 
 // Acklam's rational approximation of the inverse normal distribution function (relative error
@@ -66,6 +101,14 @@ std::uint32_t Random::bits() {
     left_ = 4;
   }
   return buffer_[static_cast<std::size_t>(4 - left_--)];
+}
+
+void Random::fill(std::span<std::uint32_t> words) {
+  auto next = words.begin();
+  for (; left_ > 0 && next != words.end(); ++next) *next = bits();
+  for (; words.end() - next >= std::ptrdiff_t{4 * lanes}; next += 4 * lanes, block_ += lanes)
+    philox_lanes(block_, stream_, seed_, &*next);
+  std::generate(next, words.end(), [this] { return bits(); });
 }
 
 float Random::uniform() { return static_cast<float>(bits() >> 8) * 0x1p-24f; }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace gramloom {
 
@@ -19,6 +20,8 @@ class Random {
 
   /// Uniform over all 2³² values.
   std::uint32_t bits();
+  /// Many at once: the same as from one bits() after the other, and quicker.
+  void fill(std::span<std::uint32_t> words);
   /// Uniform in [0, 1), a multiple of 2⁻²⁴.
   float uniform();
   /// Uniform in [low, high).

@@ -1,10 +1,12 @@
 #include "signal/patch_field.h"
 
 #include <algorithm>
-#include <limits>
+#include <span>
 
 #include "core/simd.h"
 #include "core/threads.h"
+#include "signal/patch_distance.h"
+#include "signal/patch_sketch.h"
 
 namespace gramloom {
 
@@ -13,44 +15,13 @@ namespace {
 /// Rows of a field that are scanned in order; other bands are scanned at the same time.
 constexpr int band_rows = 16;
 
-constexpr int lanes = 8;
-typedef float Lanes __attribute__((vector_size(lanes * sizeof(float)), aligned(4), may_alias));
-constexpr int row_lanes = field_patch * field_features / lanes;
-
-__attribute__((always_inline)) inline float sum_of(const Lanes (&sums)[row_lanes]) {
-  const Lanes sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-  return ((sum[0] + sum[4]) + (sum[1] + sum[5])) + ((sum[2] + sum[6]) + (sum[3] + sum[7]));
-}
-
-/// Squared distance of two patches, whose rows are `a_row` and `b_row` values apart; at least
-/// `limit`, but not all of it, when the rows looked at come to that. Most do in the first two.
-__attribute__((always_inline)) inline float squared_distance(const float* a, std::ptrdiff_t a_row,
-                                                             const float* b, std::ptrdiff_t b_row,
-                                                             float limit) {
-  float total = 0;
-  for (int half = 0; half < 2; ++half) {
-    Lanes sums[row_lanes] = {};
-    float with_half = 0;
-    for (int y = 0; y < field_patch / 2; ++y, a += a_row, b += b_row) {
-      const Lanes* av = reinterpret_cast<const Lanes*>(a);
-      const Lanes* bv = reinterpret_cast<const Lanes*>(b);
-      for (int k = 0; k < row_lanes; ++k) {
-        const Lanes d = av[k] - bv[k];
-        sums[k] += d * d;
-      }
-      if (y % 2 == 0) continue;
-      with_half = total + sum_of(sums);
-      if (with_half >= limit) return with_half;
-    }
-    total = with_half;
-  }
-  return total;
-}
-
+/// What a pass looks at. Most of what it tries is ruled out by sketches.
 struct Search {
   const Image& canvas;
   const Image& exemplar;
   const PatchPenalty& penalty;
+  SketchScale scale;
+  std::vector<PatchSketch> canvas_sketches, exemplar_sketches;
   Size origins;
   std::ptrdiff_t canvas_row, exemplar_row;
 
@@ -58,6 +29,9 @@ struct Search {
       : canvas(canvas_),
         exemplar(exemplar_),
         penalty(penalty_),
+        scale(sketch_scale(exemplar_)),
+        canvas_sketches(sketch_patches(canvas_, scale)),
+        exemplar_sketches(sketch_patches(exemplar_, scale)),
         origins(patch_origins(exemplar_.size())),
         canvas_row(std::ptrdiff_t{canvas_.width} * field_features),
         exemplar_row(std::ptrdiff_t{exemplar_.width} * field_features) {}
@@ -74,22 +48,85 @@ struct Best {
   float cost = 0;
 };
 
-__attribute__((always_inline)) inline void try_origin(const Search& search, int x, int y,
-                                                      PatchOrigin origin, Best& best) {
-  const float penalty = search.penalty.of_origin[search.penalty.index(origin)] +
-                        search.penalty.of_shift[search.penalty.shift(x, y, origin)];
-  const float limit = best.cost - penalty;
-  if (limit <= 0) return;
-  const float distance =
-      squared_distance(search.canvas.at(x, y), search.canvas_row,
-                       search.exemplar.at(origin.x, origin.y), search.exemplar_row, limit);
-  if (distance < limit) best = {origin, distance, distance + penalty};
+GRAMLOOM_INLINE float penalty_of(const Search& search, int x, int y, PatchOrigin origin) {
+  return search.penalty.of_origin[search.penalty.index(origin)] +
+         search.penalty.of_shift[search.penalty.shift(x, y, origin)];
 }
 
-/// A whole number within `radius` of `centre` and in [0, count).
-inline int near(int centre, int radius, int count, std::uint32_t bits16) {
-  const int low = std::max(0, centre - radius), high = std::min(count - 1, centre + radius);
-  return low + static_cast<int>((static_cast<std::uint32_t>(high - low + 1) * bits16) >> 16);
+/// What the origin that the patch has from the pass before costs now.
+GRAMLOOM_INLINE void keep_origin(const Search& search, int x, int y, Best& best) {
+  best.distance =
+      squared_distance(search.canvas.at(x, y), search.canvas_row,
+                       search.exemplar.at(best.origin.x, best.origin.y), search.exemplar_row);
+  best.cost = best.distance + penalty_of(search, x, y, best.origin);
+}
+
+GRAMLOOM_INLINE void try_origin(const Search& search, int x, int y, PatchOrigin origin,
+                                Best& best) {
+  const float distance =
+      squared_distance(search.canvas.at(x, y), search.canvas_row,
+                       search.exemplar.at(origin.x, origin.y), search.exemplar_row, best.cost);
+  if (distance >= best.cost) return;  // as most do, without a look at penalties far away in memory
+  const float penalty = penalty_of(search, x, y, origin);
+  if (distance < best.cost - penalty) best = {origin, distance, distance + penalty};
+}
+
+typedef std::uint32_t FourBits __attribute__((vector_size(16), aligned(4), may_alias));
+
+/// Whole numbers within `radius` of `centre` and in [0, count).
+GRAMLOOM_INLINE Four near(int centre, Four radius, int count, FourBits bits16) {
+  const Four zero{}, last = zero + (count - 1);
+  Four low = centre - radius, high = centre + radius;
+  low = low < zero ? zero : low;
+  high = high > last ? last : high;
+  const FourBits count_within = reinterpret_cast<FourBits>(high - low + 1);
+  return low + reinterpret_cast<Four>((count_within * bits16) >> 16);
+}
+
+/// Random origins about one.
+struct FourOrigins {
+  Four x, y;
+};
+GRAMLOOM_INLINE FourOrigins draw(Size origins, PatchOrigin around, Four radius, FourBits bits) {
+  return {near(around.x, radius, origins.width, bits & 0xFFFF),
+          near(around.y, radius, origins.height, bits >> 16)};
+}
+
+/// Where the sketches of origins lie among all.
+GRAMLOOM_INLINE Four places(const FourOrigins& origins, int width) {
+  return origins.y * width + origins.x;
+}
+
+/// Has the sketches brought from memory that try_four() will look at if a patch's best so far stays
+/// its best.
+GRAMLOOM_INLINE void prefetch_four(const Search& search, PatchOrigin around, Four radius,
+                                   FourBits bits) {
+  const Four at = places(draw(search.origins, around, radius, bits), search.origins.width);
+  for (int t = 0; t < 4; ++t) __builtin_prefetch(search.exemplar_sketches.data() + at[t]);
+}
+
+/// Tries the first `count` of four random origins, each about the best so far.
+GRAMLOOM_INLINE void try_four(const Search& search, int x, int y, const PatchSketch& patch,
+                              Four radius, FourBits bits, int count, Best& best) {
+  const PatchSketch* sketches = search.exemplar_sketches.data();
+  PatchOrigin around;
+  FourOrigins drawn;
+  Four difference;
+  int telling = 0;
+  const auto look = [&]() __attribute__((always_inline)) {
+    around = best.origin;
+    drawn = draw(search.origins, around, radius, bits);
+    const Four at = places(drawn, search.origins.width);
+    difference =
+        differences(patch, sketches[at[0]], sketches[at[1]], sketches[at[2]], sketches[at[3]]);
+    telling = telling_difference(best.cost, search.scale);
+  };
+  look();
+  for (int t = 0; t < count; ++t) {
+    if (difference[t] >= telling) continue;
+    try_origin(search, x, y, {drawn.x[t], drawn.y[t]}, best);
+    if (best.origin != around) look();
+  }
 }
 
 GRAMLOOM_SIMD void improve_band(PatchField& field, const std::vector<PatchOrigin>& before,
@@ -107,23 +144,32 @@ GRAMLOOM_SIMD void improve_band(PatchField& field, const std::vector<PatchOrigin
     return PatchOrigin{origin.x - dx, origin.y - dy};
   };
   const int rows = last - first;
+  std::vector<int> radius;  // and some zeros: four are read at a time
+  for (int r = std::max(search.origins.width, search.origins.height);
+       static_cast<int>(radius.size()) < tries && r > 0; r /= 3)
+    radius.push_back(r);
+  tries = static_cast<int>(radius.size());
+  radius.resize(radius.size() + 4);
+  std::vector<std::uint32_t> bits(static_cast<std::size_t>(width * tries + 4));
   for (int i = 0; i < rows; ++i) {
     const int y = direction > 0 ? first + i : last - 1 - i;
+    random.fill(std::span(bits).first(static_cast<std::size_t>(width * tries)));
     for (int k = 0; k < width; ++k) {
       const int x = direction > 0 ? k : width - 1 - k;
       const std::size_t index = field.index(x, y);
-      Best best{field.nearest[index], 0, std::numeric_limits<float>::infinity()};
-      try_origin(search, x, y, best.origin, best);
+      Best best{.origin = field.nearest[index]};
+      keep_origin(search, x, y, best);
       for (const PatchOrigin o : {suggestion(x, y, -direction, 0), suggestion(x, y, 0, -direction)})
         if (search.contains(o) && o != best.origin) try_origin(search, x, y, o, best);
-      int radius = std::max(search.origins.width, search.origins.height);
-      for (int t = 0; t < tries && radius > 0; ++t, radius /= 3) {
-        const std::uint32_t bits = random.bits();
-        try_origin(search, x, y,
-                   {near(best.origin.x, radius, search.origins.width, bits & 0xFFFF),
-                    near(best.origin.y, radius, search.origins.height, bits >> 16)},
-                   best);
-      }
+      const PatchSketch& patch = search.canvas_sketches[index];
+      if (k + 1 < width)
+        prefetch_four(search, field.nearest[field.index(x + direction, y)],
+                      *reinterpret_cast<const Four*>(radius.data()),
+                      *reinterpret_cast<const FourBits*>(bits.data() + (k + 1) * tries));
+      for (int t = 0; t < tries; t += 4)
+        try_four(search, x, y, patch, *reinterpret_cast<const Four*>(radius.data() + t),
+                 *reinterpret_cast<const FourBits*>(bits.data() + k * tries + t),
+                 std::min(4, tries - t), best);
       field.nearest[index] = best.origin;
       field.distance[index] = best.distance;
     }
@@ -132,13 +178,30 @@ GRAMLOOM_SIMD void improve_band(PatchField& field, const std::vector<PatchOrigin
 
 GRAMLOOM_SIMD void search_all_of_band(PatchField& field, const Search& search, int first,
                                       int last) {
+  const int width = search.origins.width;
   for (int y = first; y < last; ++y)
     for (int x = 0; x < field.size.width; ++x) {
       const std::size_t index = field.index(x, y);
-      Best best{field.nearest[index], 0, std::numeric_limits<float>::infinity()};
-      try_origin(search, x, y, best.origin, best);
-      for (int v = 0; v < search.origins.height; ++v)
-        for (int u = 0; u < search.origins.width; ++u) try_origin(search, x, y, {u, v}, best);
+      const PatchSketch& patch = search.canvas_sketches[index];
+      Best best{.origin = field.nearest[index]};
+      keep_origin(search, x, y, best);
+      int telling = telling_difference(best.cost, search.scale);
+      const auto consider = [&](int u, int v, int difference) __attribute__((always_inline)) {
+        if (difference >= telling) return;
+        const float cost = best.cost;
+        try_origin(search, x, y, {u, v}, best);
+        if (best.cost < cost) telling = telling_difference(best.cost, search.scale);
+      };
+      const PatchSketch* sketch = search.exemplar_sketches.data();
+      for (int v = 0; v < search.origins.height; ++v) {
+        int u = 0;
+        for (; u + 4 <= width; u += 4, sketch += 4) {
+          const Four difference = differences(patch, sketch[0], sketch[1], sketch[2], sketch[3]);
+          for (int t = 0; t < 4; ++t) consider(u + t, v, difference[t]);
+        }
+        for (; u < width; ++u, ++sketch)
+          consider(u, v, differences(patch, *sketch, *sketch, *sketch, *sketch)[0]);
+      }
       field.nearest[index] = best.origin;
       field.distance[index] = best.distance;
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/simd.h"
 #include "signal/patch_field.h"
 
 namespace gramloom {
@@ -12,20 +13,38 @@ std::size_t area(Size size) {
   return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
 }
 
-/// Means over windows of field_patch + 1 values of a line, cut at its ends.
-void smooth_line(const std::vector<float>& from, std::size_t start, std::size_t step, int length,
-                 std::vector<float>& to) {
-  for (int i = 0; i < length; ++i) {
-    const int low = std::max(0, i - field_patch / 2);
-    const int high = std::min(length, i + field_patch / 2 + 1);
-    float sum = 0;
-    for (int k = low; k < high; ++k) sum += from[start + static_cast<std::size_t>(k) * step];
-    to[start + static_cast<std::size_t>(i) * step] = sum / static_cast<float>(high - low);
-  }
+/// The window of field_patch + 1 values about i, cut at the ends of a line.
+struct Window {
+  int low, high;
+  Window(int i, int length)
+      : low(std::max(0, i - field_patch / 2)), high(std::min(length, i + field_patch / 2 + 1)) {}
+  float size() const { return static_cast<float>(high - low); }
+};
+
+GRAMLOOM_SIMD void add(const float* __restrict from, std::size_t count, float* __restrict to) {
+  for (std::size_t i = 0; i < count; ++i) to[i] += from[i];
+}
+
+GRAMLOOM_SIMD void divide(float* __restrict values, std::size_t count, float by) {
+  for (std::size_t i = 0; i < count; ++i) values[i] /= by;
 }
 
 /// Half the way, so that patches do not all flee to the same place and back.
-void approach(float& value, float goal) { value += 0.5f * (goal - value); }
+GRAMLOOM_INLINE void approach(float& value, float goal) { value += 0.5f * (goal - value); }
+
+GRAMLOOM_SIMD void approach_use(float* __restrict penalties, const float* __restrict used,
+                                std::size_t count, float weight) {
+  for (std::size_t i = 0; i < count; ++i)
+    approach(penalties[i], weight * std::max(0.0f, used[i] - 1));
+}
+
+GRAMLOOM_SIMD void approach_counts(float* __restrict penalties, const int* __restrict counts,
+                                   std::size_t count, float limit, float weight) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float excess = static_cast<float>(counts[i]) / limit - 1;
+    approach(penalties[i], weight * std::min(4.0f, std::max(0.0f, excess)));
+  }
+}
 
 }  // namespace
 
@@ -41,10 +60,23 @@ std::vector<float> usage(const PatchField& field, Size origins) {
   const float share = static_cast<float>(used.size()) / static_cast<float>(field.nearest.size());
   for (const PatchOrigin o : field.nearest)
     used[static_cast<std::size_t>(o.y) * width + static_cast<std::size_t>(o.x)] += share;
-  for (int y = 0; y < origins.height; ++y)
-    smooth_line(used, static_cast<std::size_t>(y) * width, 1, origins.width, rows);
-  for (int x = 0; x < origins.width; ++x)
-    smooth_line(rows, static_cast<std::size_t>(x), width, origins.height, used);
+  for (int y = 0; y < origins.height; ++y) {
+    const std::size_t row = static_cast<std::size_t>(y) * width;
+    for (int x = 0; x < origins.width; ++x) {
+      const Window window(x, origins.width);
+      float sum = 0;
+      for (int k = window.low; k < window.high; ++k) sum += used[row + static_cast<std::size_t>(k)];
+      rows[row + static_cast<std::size_t>(x)] = sum / window.size();
+    }
+  }
+  std::ranges::fill(used, 0.0f);
+  for (int y = 0; y < origins.height; ++y) {
+    const Window window(y, origins.height);
+    float* to = used.data() + static_cast<std::size_t>(y) * width;
+    for (int k = window.low; k < window.high; ++k)
+      add(rows.data() + static_cast<std::size_t>(k) * width, width, to);
+    divide(to, width, window.size());
+  }
   return used;
 }
 
@@ -52,9 +84,8 @@ void update(PatchPenalty& penalty, const PatchField& field, double uniformity,
             double largest_copy) {
   constexpr float patch_area = field_patch * field_patch;
   const std::vector<float> used = usage(field, penalty.origins);
-  for (std::size_t i = 0; i < used.size(); ++i)
-    approach(penalty.of_origin[i],
-             static_cast<float>(uniformity) * patch_area * std::max(0.0f, used[i] - 1));
+  approach_use(penalty.of_origin.data(), used.data(), used.size(),
+               static_cast<float>(uniformity) * patch_area);
 
   std::vector<int> counts(penalty.of_shift.size());
   for (int y = 0; y < field.size.height; ++y)
@@ -62,9 +93,7 @@ void update(PatchPenalty& penalty, const PatchField& field, double uniformity,
       ++counts[penalty.shift(x, y, field.nearest[field.index(x, y)])];
   const float limit =
       std::max(1.0f, static_cast<float>(largest_copy) * static_cast<float>(used.size()));
-  for (std::size_t i = 0; i < counts.size(); ++i)
-    approach(penalty.of_shift[i],
-             0.5f * patch_area * std::clamp(static_cast<float>(counts[i]) / limit - 1, 0.0f, 4.0f));
+  approach_counts(penalty.of_shift.data(), counts.data(), counts.size(), limit, 0.5f * patch_area);
 }
 
 }  // namespace gramloom

@@ -29,6 +29,18 @@ TEST(Random, DependsOnSeedStreamAndPlaceAlone) {
   }
 }
 
+TEST(Random, ManyAtOnceAreTheSame) {
+  for (const std::size_t before : {0, 1, 3, 4})
+    for (const std::size_t count : {0, 1, 5, 127, 128, 129, 1000}) {
+      Random one(9, 4), many(9, 4);
+      for (std::size_t i = 0; i < before; ++i) EXPECT_EQ(one.bits(), many.bits());
+      std::vector<std::uint32_t> words(count);
+      many.fill(words);
+      for (const std::uint32_t word : words) ASSERT_EQ(word, one.bits()) << before << " " << count;
+      EXPECT_EQ(one.bits(), many.bits());
+    }
+}
+
 TEST(Random, SplittingDoesNotAdvanceTheParent) {
   Random parent(1), untouched(1);
   std::set<std::uint32_t> first;
