@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+#include "core/progress.h"
+#include "surface/preview_params.h"
+#include "surface/volume.h"
+
+namespace gramloom {
+
+/// Colours of a solid at points of it: linear ones, where the shape's ball is [0, 1]³ (y up).
+/// `width`: of what each point stands for. Called from several threads.
+using Solid =
+    std::function<void(std::span<const Vec3> points, float width, std::span<Vec3> colours)>;
+
+/// What a shape is covered with, or carved from.
+struct PreviewMaterial {
+  Image colour;  // linear values; one channel is grey; empty: white
+  std::map<std::string, Image>
+      maps;       // of its size: height, normal, roughness, metalness, occlusion
+  Volume volume;  // for Mapping::solid, linear values
+  Solid solid;    // or this
+};
+
+/// The names of maps that a preview knows.
+inline constexpr auto preview_maps =
+    std::to_array<std::string_view>({"height", "normal", "roughness", "metalness", "occlusion"});
+
+/// `picture`, whose colours are stored as sRGB, with linear values.
+Image linear_picture(const Image& picture);
+
+/// Throws ConfigError for parameters out of range, or that don't fit together.
+void check_preview(const PreviewParams& params);
+
+/// The picture of a shape with one material, or with two that share it by the params' pattern: four
+/// channels with linear values and alpha. `environment`: a picture with linear values, of the kind
+/// that the params say; empty: a studio. The same bytes for any number of threads.
+/// Throws ConfigError for parameters out of range, Error for maps of different sizes, an
+/// environment of other proportions, a mesh that cannot be used, a mapping that does not suit the
+/// material; Interrupted when told to stop.
+Image render_preview(const PreviewParams& params, std::span<const PreviewMaterial> materials,
+                     const Image& environment, const Control& control);
+
+/// Such a picture as a file shows it: sRGB, with highlights above 0.8 pressed together; without its
+/// alpha channel unless the background is transparent.
+Image shown_preview(const PreviewParams& params, const Image& rendered);
+
+}  // namespace gramloom
