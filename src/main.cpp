@@ -35,7 +35,8 @@ ExitCode dispatch(int argc, char** argv) {
                                       add_list(app),
                                       add_score(app),
                                       add_report(app),
-                                      add_maps(app)};
+                                      add_maps(app),
+                                      add_preview(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {

@@ -26,6 +26,7 @@ Command add_list(CLI::App& program);
 Command add_score(CLI::App& program);
 Command add_report(CLI::App& program);
 Command add_maps(CLI::App& program);
+Command add_preview(CLI::App& program);
 
 /// Writes to standard output. A reader who has gone away is no mistake of ours; else throws Error.
 ExitCode print(const std::string& text);

@@ -40,6 +40,34 @@ CLI::Option* add_word(CLI::App& command, const std::string& option, E& value,
       ->type_name("");
 }
 
+// "512", or "512,384": width and height.
+inline CLI::Option* add_size(CLI::App& command, const std::string& option, Size& value,
+                             const Range& range, const std::string& meaning) {
+  return command
+      .add_option_function<std::vector<int>>(
+          option,
+          [&value, option](const std::vector<int>& sides) {
+            if (sides.size() > 2)
+              throw CLI::ValidationError(option, "takes one number for both sides, or two");
+            value = {sides.front(), sides.back()};
+          },
+          fmt::format("{}; {},{}", meaning, value.width, value.height))
+      ->delimiter(',')
+      ->expected(1, 2)
+      ->allow_extra_args(false)
+      ->check(range_of<int>(range))
+      ->type_name("");
+}
+
+inline CLI::Option* add_path(CLI::App& command, const std::string& option,
+                             std::filesystem::path& value, const std::string& meaning) {
+  return command
+      .add_option_function<std::string>(
+          option, [&value](const std::string& word) { value = word; },
+          value.empty() ? meaning : fmt::format("{}; {}", meaning, value.string()))
+      ->type_name("");
+}
+
 }  // namespace detail
 
 /// `params` must stay where it is until the command line is read. Returns the options.
@@ -57,10 +85,15 @@ std::vector<CLI::Option*> add_field_options(CLI::App& command, Params& params,
     const std::string standard = value_to_text(value);
     CLI::Option* added = nullptr;
     if constexpr (std::is_same_v<T, bool>) {
-      added = command.add_flag(option, value, meaning);
+      const std::string off = value ? fmt::format(",!--no-{}", option.substr(2)) : "";
+      added = command.add_flag(option + off, value, meaning);
     } else if constexpr (NamedEnum<T>) {
       added =
           detail::add_word(command, option, value, meaning + "; " + std::string(to_word(value)));
+    } else if constexpr (std::is_same_v<T, Size>) {
+      added = detail::add_size(command, option, value, field.range, meaning);
+    } else if constexpr (std::is_base_of_v<std::filesystem::path, T>) {
+      added = detail::add_path(command, option, value, meaning);
     } else {
       if (standard != "[]") meaning += "; " + standard;
       added = command.add_option(option, value, meaning)

@@ -8,6 +8,7 @@
 #include "jobs/method_reader.h"
 #include "jobs/names.h"
 #include "jobs/overrides.h"
+#include "surface/preview.h"
 
 namespace gramloom {
 
@@ -108,6 +109,19 @@ void check_surface(const Config& config, toml::table& table) {
     fail(region, "'surface' makes maps of heights: no exemplar has a map called 'height'");
 }
 
+// What a preview's fields cannot say alone; and its file is not that of a map.
+void check_preview_section(const Config& config, const toml::source_region& region) {
+  try {
+    check_preview(*config.preview);
+  } catch (const Error& error) {
+    fail(region, "preview: {}", error.what());
+  }
+  for (const ExemplarEntry& exemplar : config.exemplars)
+    if (exemplar.maps.contains("preview"))
+      fail(region, "the map 'preview' of '{}' would have the file of the preview: rename it",
+           exemplar.name);
+}
+
 void check_seeds(const Config& config, const toml::table& table) {
   const toml::source_region& region = key_region(table, "seeds");
   if (config.seeds.empty()) fail(region, "'seeds' is empty");
@@ -138,7 +152,7 @@ Config parse_config(const std::string& text, const fs::path& file,
   toml::table table = parse_toml(text, file.string());
   for (const auto& option : overrides) apply_override(table, option);
   std::vector<std::string> keys = config_keys();
-  keys.insert(keys.end(), {"exemplar", "method", "baseline", "surface"});
+  keys.insert(keys.end(), {"exemplar", "method", "baseline", "surface", "preview"});
   check_keys(table, keys);
 
   Config config;
@@ -150,6 +164,10 @@ Config parse_config(const std::string& text, const fs::path& file,
   config.methods = read_methods(table);
   config.baseline = read_section<BaselineLimits>(table, "baseline");
   config.surface = read_section<MapParams>(table, "surface");
+  if (single_section(table, "preview")) {
+    config.preview = read_section<PreviewParams>(table, "preview");
+    check_preview_section(config, key_region(table, "preview"));
+  }
   check_whole(config, table);
   check_surface(config, table);
   return config;

@@ -13,6 +13,7 @@
 #include "jobs/methods.h"
 #include "runs/baseline_limits.h"
 #include "surface/maps.h"
+#include "surface/preview_params.h"
 
 namespace gramloom {
 
@@ -64,8 +65,9 @@ struct Config {
   bool scores = true;
   std::vector<ExemplarEntry> exemplars;
   std::vector<MethodEntry> methods;
-  BaselineLimits baseline;  // its [baseline]
-  MapParams surface;        // its [surface]: maps of every result that has a height
+  BaselineLimits baseline;               // its [baseline]
+  MapParams surface;                     // its [surface]: maps of every result that has a height
+  std::optional<PreviewParams> preview;  // its [preview]: a picture of every result on a shape
 
   static constexpr auto fields() {
     using C = Config;

@@ -1,5 +1,6 @@
 #include "jobs/input_files.h"
 
+#include "jobs/job_preview.h"
 #include "neural/network/network_description.h"
 #include "runs/job_files.h"
 
@@ -41,6 +42,7 @@ std::vector<InputFile> input_files(const Config& config) {
     for (const auto& [map, file] : exemplar.maps) files.push_back({file.image, "the config reads"});
   }
   for (const MethodEntry& method : config.methods) add_files_of(method.method, files);
+  for (const auto& [key, file] : preview_files(config)) files.push_back({file, "the config reads"});
   return files;
 }
 

@@ -11,6 +11,7 @@
 #include "neural/network/network_description.h"
 #include "surface/maps.h"
 #include "surface/photo.h"
+#include "surface/preview_params.h"
 
 namespace gramloom {
 
@@ -135,6 +136,7 @@ std::string list_maps() {
   };
   add(std::type_identity<MapParams>());
   add(std::type_identity<PhotoParams>());
+  add(std::type_identity<PreviewParams>());
   return text;
 }
 

@@ -120,7 +120,8 @@ class Guard {
   // Which maps the job's texture has: the exemplar's, or those that procedural textures know; and
   // those made of its height.
   std::function<bool(const std::string&)> map_names(const Job& job) const {
-    const std::vector<std::string> made = maps_asked(config_.surface);
+    std::vector<std::string> made = maps_asked(config_.surface);
+    if (config_.preview) made.emplace_back("preview");
     if (job.exemplar)
       return [&maps = config_.exemplars[*job.exemplar].maps, made](const std::string& name) {
         return maps.contains(name) || contains(made, name);

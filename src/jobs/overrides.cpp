@@ -116,7 +116,8 @@ void apply_override(toml::table& config, const std::string& option) {
   else if (!assign_in_section(config, "method", option) &&
            !assign_in_section(config, "exemplar", option) &&
            !assign_in_table(config, "baseline", key, value, option) &&
-           !assign_in_table(config, "surface", key, value, option))
+           !assign_in_table(config, "surface", key, value, option) &&
+           !assign_in_table(config, "preview", key, value, option))
     assign_in_methods(config, key, value, option);
 }
 

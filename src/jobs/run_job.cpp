@@ -3,6 +3,7 @@
 #include "core/hash.h"
 #include "io/text_file.h"
 #include "jobs/interruption.h"
+#include "jobs/job_preview.h"
 #include "jobs/machine.h"
 #include "jobs/memory.h"
 #include "jobs/results.h"
@@ -96,16 +97,20 @@ Made make_texture(Run& run, const Work& work, TraceLog& trace) {
   return made;
 }
 
-void write_results(const Run& run, const Work& work, Texture joined, const TraceLog& trace,
+void write_results(Run& run, const Work& work, Texture joined, const TraceLog& trace,
                    JobRecord& record) {
   const JobFiles& files = work.files;
   Texture texture = split_layers(std::move(joined), run.files);
   record.notes = run.notes;
   add_surface_maps(texture, run.config, record.notes);
+  const OutputFormats formats = output_formats(run.config, run.files, texture);
   const WrittenTexture written =
-      write_texture(files.folder, files.name, texture,
-                    output_formats(run.config, run.files, texture), record.settings);
+      write_texture(files.folder, files.name, texture, formats, record.settings);
   record.files = written.files;
+  const std::string preview =
+      write_preview(files.folder, files.name, run.config, work.method, work.request.random, texture,
+                    formats.picture, shown_work(run), record.notes);
+  if (!preview.empty()) record.files.push_back(preview);
   record.notes.insert(record.notes.end(), written.notes.begin(), written.notes.end());
   record.texture = file_hash(files.folder / record.files.front());
   record.loss = summarise(trace.trace());
@@ -122,7 +127,8 @@ Work begin_work(Run& run, const PlannedJob& planned, const JobFiles& files, JobR
   const Job& job = planned.job;
   const Method& method = run.config.methods[job.method].method;
   const Request& request = request_of(run, job);
-  InputHashes inputs{run.loaded_hashes, method_hashes(method, run.hashes)};
+  InputHashes inputs{run.loaded_hashes, method_hashes(method, run.hashes),
+                     preview_hashes(run.config, run.hashes)};
   record.settings = job_settings(run.config, job, inputs);
   record.network = network_of(method);
   const std::string identity = hash_of(to_text(record.settings) + std::string(version()));

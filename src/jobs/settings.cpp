@@ -1,6 +1,7 @@
 #include "jobs/settings.h"
 
 #include "io/field_values.h"
+#include "jobs/job_preview.h"
 
 namespace gramloom {
 
@@ -62,6 +63,10 @@ Json job_settings(const Config& config, const Job& job, const InputHashes& input
   settings["format"] = value_to_json(config.format, {});
   settings["pixel_type"] = value_to_json(config.pixel_type, {});
   if (!maps_asked(config.surface).empty()) settings["surface"] = fields_to_json(config.surface, {});
+  if (config.preview) {
+    settings["preview"] = fields_to_json(*config.preview, config.file.parent_path());
+    if (!inputs.preview.empty()) settings["preview"]["files"] = to_json_value(inputs.preview);
+  }
   // As a record will hold it: a name may have bytes that are no UTF-8.
   return parse_json(to_text(settings));
 }
@@ -70,6 +75,7 @@ InputHashes input_hashes(const Config& config, const Job& job, FileHashes& hashe
   InputHashes inputs;
   if (job.exemplar) inputs.exemplar = exemplar_hashes(config.exemplars[*job.exemplar], hashes);
   inputs.method = method_hashes(config.methods[job.method].method, hashes);
+  inputs.preview = preview_hashes(config, hashes);
   return inputs;
 }
 
@@ -78,6 +84,7 @@ Json config_to_json(const Config& config) {
   Json json = fields_to_json(config, folder);
   json["baseline"] = fields_to_json(config.baseline, folder);
   if (!maps_asked(config.surface).empty()) json["surface"] = fields_to_json(config.surface, folder);
+  if (config.preview) json["preview"] = fields_to_json(*config.preview, folder);
   json["exemplar"] = Json::array();
   for (const auto& exemplar : config.exemplars) {
     Json entry{{"name", exemplar.name}};

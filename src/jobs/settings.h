@@ -16,6 +16,7 @@ Json method_to_json(const Method& method, const std::filesystem::path& folder);
 struct InputHashes {
   std::vector<std::string> exemplar;  // the picture's, then its maps'
   Named<std::string> method;          // by the names of the parameters
+  Named<std::string> preview;         // likewise
 
   friend bool operator==(const InputHashes&, const InputHashes&) = default;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "core/image.h"
 #include "core/progress.h"
@@ -25,9 +26,10 @@ struct Canvas {
   std::array<float, 4> origin{0, 0, 0, 0};
   std::array<float, 4> right{1, 0, 0, 0};
   std::array<float, 4> down{0, 1, 0, 0};
-  int loop_axis = -1;                   // the axis along which the sequence comes back to its start
-  float loop_length = 0;                // after so many features
-  std::array<float, 3> light{0, 0, 1};  // unit vector towards the light; y points down
+  int loop_axis = -1;     // the axis along which the sequence comes back to its start
+  float loop_length = 0;  // after so many features
+  std::span<const std::array<float, 3>> points;  // if any: a pixel is each of these, not the plane
+  std::array<float, 3> light{0, 0, 1};           // unit vector towards the light; y points down
   Random random{0};
   const Control* control = nullptr;
 

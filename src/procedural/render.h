@@ -74,12 +74,38 @@ GRAMLOOM_SIMD void render_row(const Shader& shader, const Canvas& canvas, int y,
   }
 }
 
+/// The canvas's points [first, first + count), as many as a pack holds; the last one fills it up.
+inline Point<4> points_at(const Canvas& canvas, int first, int count) {
+  Point<4> p;
+  for (int lane = 0; lane < pack_size; ++lane) {
+    const auto& point = canvas.points[static_cast<std::size_t>(first + std::min(lane, count - 1))];
+    for (std::size_t d = 0; d < 3; ++d) p.at[d][lane] = canvas.origin[d] + point[d];
+  }
+  p.at[3] = Floats{};
+  return p;
+}
+
+/// The colours at the canvas's points.
+template <class Shader>
+GRAMLOOM_SIMD void render_points(const Shader& shader, const Canvas& canvas, float* colour) {
+  const int all = static_cast<int>(canvas.points.size());
+  for (int x = 0; x < all; x += pack_size) {
+    const int count = std::min(pack_size, all - x);
+    const Rgb c = shader(points_at(canvas, x, count)).colour;
+    store_colour({clamp(c.r), clamp(c.g), clamp(c.b)}, colour + 3 * x, count);
+  }
+}
+
 }  // namespace detail
 
 /// Evaluates `shader`, a function object Surface(const Point<4>&), on the canvas.
 template <class Shader>
 Texture render(const Shader& shader, const Canvas& canvas, Maps maps = {}) {
   Texture texture{Image(canvas.size, 3), {}};
+  if (!canvas.points.empty()) {
+    detail::render_points(shader, canvas, texture.image.pixels.data());
+    return texture;
+  }
   float* height = nullptr;
   float* mask = nullptr;
   if (maps.height) height = (texture.maps["height"] = Image(canvas.size, 1)).pixels.data();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/portable_math.h"
+#include "procedural/solid.h"
 
 namespace gramloom {
 
@@ -108,6 +109,26 @@ Texture synthesise(const ProceduralParams& params, const Request& request, const
     result.maps.merge(picture.maps);
   }
   return result;
+}
+
+Image colours_at(const ProceduralParams& params, std::span<const std::array<float, 3>> points,
+                 float width, Random random) {
+  check(params, Tile::none);
+  if (dimensions(params.texture) != 3)
+    throw ConfigError("texture '{}' has {} dimensions: a shape can be carved from those of 3",
+                      std::visit([](const auto& t) { return t.name; }, params.texture),
+                      dimensions(params.texture));
+  if (points.empty()) return {};
+  const Control control;
+  Canvas canvas =
+      make_canvas(params, {{static_cast<int>(points.size()), 1}, Tile::none}, random, control);
+  // The solid is that of a square picture.
+  canvas.samples = 1;
+  canvas.width = canvas.height = static_cast<float>(params.scale);
+  canvas.step_x = canvas.step_y = std::max(width, 1e-4f);
+  canvas.points = points;
+  canvas.origin[2] = off_lattice;
+  return std::visit([&](const auto& t) { return paint(t, canvas); }, params.texture).image;
 }
 
 Cost estimate(const ProceduralParams& params, const RequestSize& request) {

@@ -1,0 +1,71 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "commands/command.h"
+#include "commands/config_options.h"
+#include "commands/field_options.h"
+#include "core/error.h"
+#include "core/threads.h"
+#include "jobs/preview_files.h"
+#include "jobs/progress_bar.h"
+
+namespace gramloom {
+
+namespace {
+
+struct PreviewArguments {
+  PreviewWork work;
+  std::string output;
+  int threads = 0;
+  bool quiet = false;
+};
+
+ExitCode preview_pictures(const PreviewArguments& arguments) {
+  set_thread_count(arguments.threads);
+  ProgressBar bar(progress_style(arguments.quiet));
+  bar.start("preview", 1, 1);
+  Control control;
+  control.progress = [&](const Progress& progress) {
+    bar.update(progress);
+    return true;
+  };
+  const PreviewFile made = make_preview(arguments.work, arguments.output, control);
+  for (const std::string& line : made.used) bar.message(line);
+  return print(arguments.output + "\n");
+}
+
+}  // namespace
+
+Command add_preview(CLI::App& program) {
+  const auto arguments = std::make_shared<PreviewArguments>();
+  CLI::App* preview =
+      program.add_subcommand("preview", "Show a texture on a shape under a lamp, with its maps");
+  preview
+      ->add_option("images", arguments->work.images,
+                   "the texture; its maps may follow (name_height.png, name_normal.png, …) or lie "
+                   "beside it; a second texture shares the shape by a pattern; or the name of a "
+                   "procedural texture; or, with --mapping solid, slices of a volume")
+      ->required();
+  preview->add_option("--output", arguments->output, "the picture to write")
+      ->required()
+      ->type_name("FILE");
+  preview
+      ->add_option("--map", arguments->work.maps,
+                   "a map of the first texture, its name and file: height, normal, roughness, "
+                   "metalness or occlusion")
+      ->type_name("NAME=FILE")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  preview->add_option("--set", arguments->work.set, "a parameter of the procedural textures")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_field_options(*preview, arguments->work.params, "The picture");
+  add_threads(*preview, arguments->threads);
+  preview->add_flag("--quiet", arguments->quiet, "show no progress");
+  return {preview, [arguments] { return preview_pictures(*arguments); }};
+}
+
+}  // namespace gramloom

@@ -1,0 +1,80 @@
+#include "jobs/job_preview.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "jobs/preview_files.h"
+#include "jobs/solid_texture.h"
+
+namespace gramloom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A texture's frames are slices of the solid that it moves through.
+Volume volume_of(const Texture& texture) {
+  Volume volume;
+  for (const auto& [name, map] : texture.maps)
+    if (name.starts_with("frame_")) volume.slices.push_back(linear_picture(map));
+  return volume;
+}
+
+PreviewMaterial material_of(const Config& config, const Method& method, Random random,
+                            const Texture& texture, const OutputFormat& format) {
+  PreviewMaterial material;
+  if (config.preview->mapping == Mapping::solid) {
+    material.volume = volume_of(texture);
+    const auto* procedural = std::get_if<ProceduralParams>(&method);
+    if (material.volume.slices.empty() && procedural)
+      material.solid = solid_of(*procedural, random);
+    return material;
+  }
+  const Image colours = extract_channels(texture.image, 0, texture.image.channels < 3 ? 1 : 3);
+  material.colour = is_coded(format.encoding.pixel_type) ? linear_picture(colours) : colours;
+  for (const auto& [name, map] : texture.maps)
+    if (std::find(preview_maps.begin(), preview_maps.end(), name) != preview_maps.end())
+      material.maps[name] = name == "normal" ? map : one_channel(map);
+  return material;
+}
+
+}  // namespace
+
+Named<fs::path> preview_files(const Config& config) {
+  Named<fs::path> files;
+  if (!config.preview) return files;
+  const PreviewParams& params = *config.preview;
+  if (!params.environment.empty()) files.push_back({"environment", params.environment});
+  if (!params.shape.is_name()) files.push_back({"shape", params.shape});
+  return files;
+}
+
+Named<std::string> preview_hashes(const Config& config, FileHashes& hashes) {
+  Named<std::string> result;
+  for (const auto& [key, file] : preview_files(config)) result.push_back({key, hashes.of(file)});
+  return result;
+}
+
+std::string write_preview(const fs::path& folder, const std::string& name, const Config& config,
+                          const Method& method, Random random, const Texture& texture,
+                          const OutputFormat& format, const Control& control,
+                          std::vector<std::string>& notes) {
+  if (!config.preview) return "";
+  const PreviewParams& params = *config.preview;
+  try {
+    const PreviewMaterial material = material_of(config, method, random, texture, format);
+    const Image environment =
+        params.environment.empty() ? Image() : read_colours(params.environment);
+    const Image rendered = render_preview(params, {&material, 1}, environment, control);
+    const std::string file = name + "_preview.png";
+    write_image(folder / file, shown_preview(params, rendered), {});
+    return file;
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const Error& error) {
+    notes.push_back(fmt::format("no preview: {}", error.what()));
+    return "";
+  }
+}
+
+}  // namespace gramloom

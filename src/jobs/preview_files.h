@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "io/image_file.h"
+#include "surface/preview.h"
+
+namespace gramloom {
+
+/// What a preview of files is made of.
+struct PreviewWork {
+  /// Pictures of one or two textures with their maps, names of procedural textures, or slices.
+  std::vector<std::string> images;
+  std::vector<std::string> maps;  // "height=FILE": of the first texture
+  std::vector<std::string> set;   // "key=value": parameters of the procedural textures
+  PreviewParams params;
+};
+
+/// A picture's colours as linear values. Those of 8 and 16 bits are coded as sRGB.
+Image read_colours(const std::filesystem::path& file);
+inline bool is_coded(PixelType type) {
+  return type == PixelType::uint8 || type == PixelType::uint16;
+}
+
+struct PreviewFile {
+  std::vector<std::string> used;  // maps that were found beside the pictures: a line each
+};
+
+/// Renders what the work says and writes it. A picture named like another and a map
+/// ("wall_height.png") is that one's map, and such files beside a picture are found; other pictures
+/// are textures of their own, at most two. Throws ConfigError for what the user must change, Error
+/// for what cannot be read or written.
+PreviewFile make_preview(const PreviewWork& work, const std::filesystem::path& output,
+                         const Control& control);
+
+}  // namespace gramloom

@@ -1,0 +1,67 @@
+#include "jobs/solid_texture.h"
+
+#include "core/error.h"
+#include "io/toml_reader.h"
+#include "jobs/method_reader.h"
+#include "surface/maps.h"
+#include "surface/shading.h"
+
+namespace gramloom {
+
+namespace {
+
+// The method that a config would have with this texture and these parameters.
+ProceduralParams read_params(const std::string& name, const std::vector<std::string>& set) {
+  toml::table table;
+  table.insert_or_assign("kind", "procedural");
+  table.insert_or_assign("name", name);
+  for (const std::string& option : set) {
+    const std::size_t equals = option.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw ConfigError("--set {}: must be key=value", option);
+    const std::string key = option.substr(0, equals);
+    toml::table given = parse_override(key, option.substr(equals + 1), option);
+    table.insert_or_assign(given.begin()->first, std::move(given.begin()->second));
+  }
+  toml::table texture = parse_override("texture", name, "texture=" + name);
+  table.insert_or_assign("texture", std::move(*texture.get("texture")));
+  return std::get<ProceduralParams>(read_method(table));
+}
+
+Vec3 linear_of(const float* p) {
+  return {linear_from_srgb(p[0]), linear_from_srgb(p[1]), linear_from_srgb(p[2])};
+}
+
+}  // namespace
+
+Solid solid_of(const ProceduralParams& params, Random random) {
+  colours_at(params, {}, 0, random);  // refuses here what it would refuse later
+  return [params, random](std::span<const Vec3> points, float width, std::span<Vec3> colours) {
+    // In features, the texture's y downwards and its origin at the upper left front.
+    const auto scale = static_cast<float>(params.scale);
+    std::vector<std::array<float, 3>> places(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+      places[i] = {points[i].x * scale, (1 - points[i].y) * scale, (1 - points[i].z) * scale};
+    const Image made = colours_at(params, places, width * scale, random);
+    for (std::size_t i = 0; i < colours.size(); ++i) colours[i] = linear_of(&made.pixels[3 * i]);
+  };
+}
+
+PreviewMaterial procedural_material(const std::string& name, const std::vector<std::string>& set,
+                                    bool solid) {
+  const ProceduralParams params = read_params(name, set);
+  const Random random(1);
+  PreviewMaterial material;
+  if (solid) {
+    material.solid = solid_of(params, random);
+    return material;
+  }
+  Texture texture =
+      synthesise(params, {.target = {{1024, 1024}, Tile::both}, .random = random}, {});
+  material.colour = linear_picture(texture.image);
+  if (const auto height = texture.maps.find("height"); height != texture.maps.end())
+    material.maps["height"] = std::move(height->second);
+  return material;
+}
+
+}  // namespace gramloom
