@@ -247,7 +247,7 @@ class BlockRenderer {
   // The ground is seen by its shadow alone, so that it needs no end.
   void shade_ground() {
     const Vec3 up{0, 1, 0};
-    // Nothing hides the grain of few samples on an even ground: several look at the sky.
+    // Nothing hides the grain of few samples on an even ground: each looks at the sky twice.
     constexpr std::size_t looks = std::tuple_size_v<decltype(Chance::sky)>;
     std::vector<Ray> lamp(ground_.size()), sky(ground_.size() * looks);
     for (std::size_t i = 0; i < ground_.size(); ++i) {

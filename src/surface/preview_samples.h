@@ -11,7 +11,7 @@ namespace gramloom {
 /// sky.
 struct Chance {
   Vec2 pixel, lamp;
-  std::array<Vec2, 4> sky;
+  std::array<Vec2, 2> sky;
 };
 
 /// The samples of pixel (x, y), stratified: their places are Hammersley's points; lamp and sky have

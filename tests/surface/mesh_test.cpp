@@ -121,6 +121,13 @@ TEST(Mesh, DisplacedByZeroIsTheSameAndSeamsStayClosed) {
   for (const Vec3& p : even) EXPECT_NEAR(length(p), 1.25f, 1e-5f);
 }
 
+TEST(Mesh, ADisplacedCubeKeepsFlatFacesAndSharpEdges) {
+  const Mesh mesh = make_shape(Shape::cube, 0.5f);
+  Mesh larger = mesh;
+  larger.positions = displaced(mesh, std::vector<float>(mesh.positions.size(), 1), 0.1f);
+  EXPECT_NEAR(volume(larger), 1.6 * 1.6 * 1.6, 1e-4);
+}
+
 std::string refusal(const Mesh& mesh) {
   try {
     check_mesh(mesh, "m.obj");
