@@ -93,14 +93,10 @@ TYPED_TEST(Layers, AFunctionOfAnotherStillObeysIt) {
   const Exemplar exemplar = layered({48, 40});
   ASSERT_LT(disobedience(exemplar.image), 1e-5);
   const Texture texture = this->make(exemplar);
-  // Methods that copy whole pixels keep it; averages of a few nearly do, as the functions are
-  // smooth. What is made channel by channel keeps no more than what is linear.
-  const double limit = TestFixture::copies ? 0.1 : 0.35;
+  // Whole pixels keep it; channels that are made by themselves keep what is linear of it, and an
+  // optimiser is on its way there after a dozen steps.
+  const double limit = TestFixture::copies ? 1e-5 : TestFixture::is_neural ? 0.35 : 0.1;
   EXPECT_LT(disobedience(texture.image), limit);
-  if (TypeParam::kind == "quilting" || TypeParam::kind == "pixel" ||
-      TypeParam::kind == "histogram") {
-    EXPECT_LT(disobedience(texture.image), 1e-5);
-  }
 }
 
 TYPED_TEST(Layers, TheUnitsOfAMapChangeNothingElse) {
