@@ -40,7 +40,7 @@ std::optional<Shape> named_shape(const FileOrName& shape) {
 void check_preview(const PreviewParams& p) {
   check_fields(p);
   check_pair("light", p.light);
-  check_pair("view", p.view);
+  if (!p.view.empty()) check_pair("view", p.view);
   for (const auto& [name, list] :
        {std::pair<std::string_view, const std::vector<double>&>{"colour", p.colour},
         {"outside_colour", p.outside_colour},
@@ -55,6 +55,14 @@ void check_preview(const PreviewParams& p) {
   if (p.mapping == Mapping::solid && p.displacement != 0)
     throw ConfigError("displacement = {}: a solid has no height map to displace it",
                       p.displacement);
+}
+
+Camera preview_camera(const PreviewParams& p) {
+  const bool plane = p.shape == "plane";
+  std::vector<double> view = p.view;
+  if (view.empty()) view = plane ? std::vector<double>{25, 38} : std::vector<double>{0, 14};
+  return make_camera(direction_of(view[0], view[1]), preview_target, plane ? 1.15f : 1,
+                     static_cast<float>(p.zoom), p.size);
 }
 
 MappingOf make_mapping(const PreviewParams& p, const Mesh& mesh) {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string_view>
 
+#include "surface/camera.h"
 #include "surface/preview.h"
 #include "surface/rays.h"
 
@@ -25,6 +26,10 @@ MappingOf make_mapping(const PreviewParams& params, const Mesh& mesh);
 
 /// How often a picture of this size is repeated along u and v.
 Vec2 repeats(const PreviewParams& params, const MappingOf& mapping, Size size);
+
+/// The camera that the params ask for. A plane is larger than the other shapes and is seen from
+/// further away, and, unless told, from further above.
+Camera preview_camera(const PreviewParams& params);
 
 /// The shape of this name, or none for a file. Throws ConfigError for a name that no shape has.
 std::optional<Shape> named_shape(const FileOrName& shape);

@@ -82,7 +82,7 @@ struct PreviewParams {
   double environment_strength = 0.55;
   double environment_turn = 0;
 
-  std::vector<double> view{0, 14};
+  std::vector<double> view;
   double zoom = 1;
   bool ground = true;
   Background background = Background::studio;
@@ -173,7 +173,8 @@ struct PreviewParams {
             "environment_turn", &P::environment_turn, "around the upright", "degrees", {-360, 360}},
         Field{"view",
               &P::view,
-              "where the camera is: 0 ahead, 90 right; and above the horizon",
+              "where the camera is: 0 ahead, 90 right; and above the horizon; by the shape if not "
+              "set",
               "degrees",
               {-360, 360}},
         Field{"zoom", &P::zoom, "2: twice as large", "", {0.01, 1e3}},

@@ -78,8 +78,7 @@ void place_camera(PreviewScene& scene) {
   for (std::uint32_t i = 0; i < scene.mesh.positions.size(); ++i)
     lowest = std::min(lowest, scene.position(i).y);
   scene.ground = lowest;
-  scene.camera = make_camera(direction_of(p.view[0], p.view[1]), preview_target, 1,
-                             static_cast<float>(p.zoom), p.size);
+  scene.camera = preview_camera(p);
 }
 
 Image turned(const Image& latlong, double degrees) {

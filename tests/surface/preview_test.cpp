@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/threads.h"
-#include "surface/camera.h"
+#include "surface/preview_mapping.h"
 
 namespace gramloom {
 namespace {
@@ -31,11 +31,6 @@ PreviewParams lit_ball() {
 Image render(const PreviewParams& p, const PreviewMaterial& material = {},
              const Image& environment = {}) {
   return render_preview(p, {&material, 1}, environment, {});
-}
-
-Camera camera_of(const PreviewParams& p) {
-  return make_camera(direction_of(p.view[0], p.view[1]), preview_target, 1,
-                     static_cast<float>(p.zoom), p.size);
 }
 
 // Where the ray through a pixel's middle meets the unit ball.
@@ -63,7 +58,7 @@ template <class Expected>
 void expect_ball(const PreviewParams& p, const PreviewMaterial& material, float tolerance,
                  Expected&& expected) {
   const Image picture = render(p, material);
-  const Camera camera = camera_of(p);
+  const Camera camera = preview_camera(p);
   int seen = 0;
   for (int y = 0; y < p.size.height; ++y)
     for (int x = 0; x < p.size.width; ++x)
@@ -101,7 +96,7 @@ TEST(Preview, AWhiteBallInAnEvenSkyIsEven) {
   p.light_strength = 0;
   p.environment_strength = 0.8;
   const Image picture = render(p, {}, Image(64, 32, 3, 0.5f));
-  const auto [x, y] = seen_at(camera_of(p), {0.2f, 0.1f, 0.95f});
+  const auto [x, y] = seen_at(preview_camera(p), {0.2f, 0.1f, 0.95f});
   EXPECT_NEAR(picture.at(x, y)[1], 0.4f, 1e-3f);
 }
 
@@ -148,7 +143,7 @@ TEST(Preview, DisplacementChangesTheOutlineAndBumpsDoNot) {
   PreviewMaterial even = stones();
   even.maps["height"] = Image(64, 64, 1, 1);
   p.displacement = 0.1;
-  const double distance = static_cast<double>(length(camera_of(p).origin));
+  const double distance = static_cast<double>(length(preview_camera(p).origin));
   const auto apparent = [&](double r) { return r * r / (distance * distance - r * r); };
   EXPECT_NEAR(covered(render(p, even)) / flat, apparent(1.1) / apparent(1), 0.01);
 }
@@ -168,7 +163,7 @@ TEST(Preview, ShadowsFallIntoGrooves) {
   p.displacement = 0.2;
   p.lookup = Lookup::bilinear;
   p.detail = 1;
-  const auto [x, y] = seen_at(camera_of(p), {0, 0, 1});
+  const auto [x, y] = seen_at(preview_camera(p), {0, 0, 1});
   EXPECT_LT(render(p, m).at(x, y)[0], 0.05f);
   p.displacement = 0;
   EXPECT_GT(render(p, m).at(x, y)[0], 0.5f);
@@ -183,7 +178,7 @@ TEST(Preview, TheShadowOfABoxIsAtItsPlace) {
   p.view = {0, 60};
   p.zoom = 0.4;
   const Image picture = render(p);
-  const Camera camera = camera_of(p);
+  const Camera camera = preview_camera(p);
   const auto brightness = [&](float x, float z) {
     const auto [i, j] = seen_at(camera, {x, -0.7f, z});
     return picture.at(i, j)[0];
@@ -213,7 +208,7 @@ TEST(Preview, AMirrorShowsThePhotographOfAMirrorBall) {
       photo.at(x, y)[1] = 1 - (static_cast<float>(y) + 0.5f) / 256;
     }
   const Image picture = render(p, {}, photo);
-  const Camera camera = camera_of(p);
+  const Camera camera = preview_camera(p);
   for (const Vec3 n : {Vec3{0, 0, 1}, Vec3{0.5f, 0, 0.87f}, Vec3{-0.3f, 0.5f, 0.81f}}) {
     const auto [x, y] = seen_at(camera, n);
     // The ball is seen from nearby, the photograph from far away: a few degrees.
@@ -246,7 +241,7 @@ TEST(Preview, TwoMaterialsShareAShapeByAPattern) {
   both[0].colour = Image(4, 4, 3, 1);
   both[1].colour = Image(4, 4, 3, 0.25f);
   const Image picture = render_preview(p, both, {}, {});
-  const Camera camera = camera_of(p);
+  const Camera camera = preview_camera(p);
   const auto at = [&](float x, float z) {
     const auto [i, j] = seen_at(camera, {x, 0, z});
     return picture.at(i, j)[0];
@@ -266,7 +261,7 @@ TEST(Preview, ASolidIsAskedAtThePointItself) {
   };
   const Image picture = render(p, m);
   const Vec3 n = normalised({0.4f, 0.3f, 0.8f});
-  const auto [x, y] = seen_at(camera_of(p), n);
+  const auto [x, y] = seen_at(preview_camera(p), n);
   const float cosine = dot(n, direction_of(0, 14));
   EXPECT_NEAR(picture.at(x, y)[0], cosine * 0.5f * (n.x + 1), 0.01f);
   EXPECT_NEAR(picture.at(x, y)[1], cosine * 0.5f * (n.y + 1), 0.01f);
