@@ -170,7 +170,7 @@ class BlockRenderer {
   }
 
   // 0 for each ray that the shape is in the way of, else 1; rays of no reach are not asked.
-  std::vector<std::uint8_t> visible(std::span<const Ray> rays) const {
+  std::vector<std::uint8_t> visible(std::span<const Ray> rays, bool alike) const {
     std::vector<std::uint8_t> seen(rays.size(), 1);
     std::vector<Ray> close;
     std::vector<std::size_t> index;
@@ -180,7 +180,7 @@ class BlockRenderer {
         index.push_back(i);
       }
     std::vector<std::uint8_t> blocked(close.size());
-    scene_.rays->blocked(close, blocked);
+    scene_.rays->blocked(close, alike, blocked);
     for (std::size_t i = 0; i < close.size(); ++i) seen[index[i]] = blocked[i] ? 0 : 1;
     return seen;
   }
@@ -197,8 +197,8 @@ class BlockRenderer {
       if (dot(s.bumped, lamp[i].direction) <= 0) lamp[i].reach = 0;
       sky[i] = {start, towards_sky(scene_.positions.empty() ? s.normal : s.bumped, chance.sky[0])};
     }
-    const auto lit = visible(lamp);
-    const auto open = visible(sky);
+    const auto lit = visible(lamp, true);
+    const auto open = visible(sky, false);
     const std::vector<Vec3> mirrored_light = mirrored_environment();
     for (std::size_t i = 0; i < count; ++i) {
       const SurfacePoint& s = shape_[i].surface;
@@ -257,8 +257,8 @@ class BlockRenderer {
       for (std::size_t k = 0; k < looks; ++k)
         sky[i * looks + k] = {start, towards_sky(up, chance.sky[k])};
     }
-    const auto lit = visible(lamp);
-    const auto seen = visible(sky);
+    const auto lit = visible(lamp, true);
+    const auto seen = visible(sky, false);
     const Vec3 from_lamp = scene_.light_colour * std::max(dot(up, scene_.light), 0.0f);
     const Vec3 from_sky = irradiance_at(scene_.irradiance, up) * scene_.environment_strength;
     const float all = dot(from_lamp + from_sky, {1, 1, 1});

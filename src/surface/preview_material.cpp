@@ -1,6 +1,7 @@
 #include "surface/preview_material.h"
 
 #include "core/error.h"
+#include "core/threads.h"
 #include "surface/relief.h"
 
 namespace gramloom {
@@ -202,7 +203,11 @@ std::vector<float> MaterialLookup::heights(std::span<const Coordinates> places, 
                      {length(at.du) * repeat_.u * edge, 0},
                      {0, length(at.dv) * repeat_.v * edge}};
   }
-  height_->at(footprints, values);
+  parallel_for(static_cast<std::int64_t>(places.size()), 4096, [&](std::int64_t a, std::int64_t b) {
+    const auto first = static_cast<std::size_t>(a), count = static_cast<std::size_t>(b - a);
+    height_->at(std::span(footprints).subspan(first, count),
+                std::span(values).subspan(first, count));
+  });
   return values;
 }
 

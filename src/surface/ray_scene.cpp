@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/error.h"
 #include "surface/embree.h"
 #include "surface/surface_module.h"
@@ -17,6 +19,28 @@ RTCRay embree_ray(const Ray& ray) {
   r.tfar = ray.reach;
   r.mask = 0xFFFFFFFF;
   return r;
+}
+
+// Up to eight rays, side by side.
+constexpr std::size_t pack = 8;
+struct Pack {
+  std::size_t count;
+  alignas(32) int valid[pack];
+};
+Pack fill(RTCRay8& r, std::span<const Ray> rays) {
+  Pack p{std::min(pack, rays.size()), {}};
+  for (std::size_t i = 0; i < p.count; ++i) {
+    p.valid[i] = -1;
+    r.org_x[i] = rays[i].origin.x;
+    r.org_y[i] = rays[i].origin.y;
+    r.org_z[i] = rays[i].origin.z;
+    r.dir_x[i] = rays[i].direction.x;
+    r.dir_y[i] = rays[i].direction.y;
+    r.dir_z[i] = rays[i].direction.z;
+    r.tfar[i] = rays[i].reach;
+    r.mask[i] = 0xFFFFFFFF;
+  }
+  return p;
 }
 
 class EmbreeScene : public RayScene {
@@ -59,23 +83,36 @@ class EmbreeScene : public RayScene {
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
   void nearest(std::span<const Ray> rays, std::span<Hit> hits) const override {
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      RTCRayHit query{};
-      query.ray = embree_ray(rays[i]);
-      query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-      intersect(scene_, query);
-      hits[i] = {};
-      if (query.hit.geomID != RTC_INVALID_GEOMETRY_ID)
-        hits[i] = {query.hit.primID, query.ray.tfar, query.hit.u, query.hit.v};
+    for (std::size_t first = 0; first < rays.size(); first += pack) {
+      RTCRayHit8 query{};
+      std::fill_n(query.hit.geomID, pack, RTC_INVALID_GEOMETRY_ID);
+      std::fill_n(query.hit.instID[0], pack, RTC_INVALID_GEOMETRY_ID);
+      const Pack p = fill(query.ray, rays.subspan(first));
+      intersect(scene_, p.valid, query);
+      for (std::size_t i = 0; i < p.count; ++i) {
+        const bool met = query.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+        hits[first + i] =
+            met ? Hit{query.hit.primID[i], query.ray.tfar[i], query.hit.u[i], query.hit.v[i]}
+                : Hit{};
+      }
     }
   }
 
-  void blocked(std::span<const Ray> rays, std::span<std::uint8_t> answers) const override {
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      RTCRay query = embree_ray(rays[i]);
-      occluded(scene_, query);
-      answers[i] = query.tfar < 0;
+  void blocked(std::span<const Ray> rays, bool alike,
+               std::span<std::uint8_t> answers) const override {
+    if (!alike) {
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        RTCRay query = embree_ray(rays[i]);
+        occluded(scene_, query);
+        answers[i] = query.tfar < 0;
+      }
+      return;
+    }
+    for (std::size_t first = 0; first < rays.size(); first += pack) {
+      RTCRay8 query{};
+      const Pack p = fill(query, rays.subspan(first));
+      occluded(scene_, p.valid, query);
+      for (std::size_t i = 0; i < p.count; ++i) answers[first + i] = query.tfar[i] < 0;
     }
   }
 

@@ -27,9 +27,12 @@ struct Hit {
 class RayScene {
  public:
   virtual ~RayScene() = default;
+  /// Of rays that run side by side, as those of a pixel do.
   virtual void nearest(std::span<const Ray> rays, std::span<Hit> hits) const = 0;
-  /// 1 for each ray that meets anything, else 0.
-  virtual void blocked(std::span<const Ray> rays, std::span<std::uint8_t> answers) const = 0;
+  /// 1 for each ray that meets anything, else 0. `alike`: rays that follow each other run side by
+  /// side, which is quicker.
+  virtual void blocked(std::span<const Ray> rays, bool alike,
+                       std::span<std::uint8_t> answers) const = 0;
 };
 
 /// By Embree (Wald et al. 2014), from the module. The mesh must stay until the scene is gone.
