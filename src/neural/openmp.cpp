@@ -50,12 +50,15 @@ void start_openmp() {
   omp_set_dynamic(0);
   const int wanted = thread_count();
   const int threads = team_size(obtainable_threads(wanted));
-  at::set_num_threads(threads);
+  // Not by at::set_num_threads(), which makes as many threads of a pool of LibTorch's own that
+  // nothing here uses, and waits for ever for those that it does not get.
+  at::get_num_threads();  // the first call in a thread sets what is set here
+  omp_set_num_threads(threads);
   if (threads < wanted) set_thread_count(threads);
 }
 
 InThisThread::InThisThread() {
-  at::get_num_threads();  // the first call in a thread sets what is set here
+  at::get_num_threads();
   threads_before_ = omp_get_max_threads();
   omp_set_num_threads(1);
 }
