@@ -4,7 +4,9 @@ namespace gramloom {
 
 /// From now on the first Ctrl-C (SIGINT), SIGTERM or end of the terminal (SIGHUP) asks the work to
 /// stop. The next one ends the process at once, whatever it is doing; but not a further SIGHUP,
-/// which shells send more than once. One who asked that SIGHUP be ignored (nohup) is obeyed.
+/// which shells send more than once. One who asked that SIGHUP be ignored (nohup) is obeyed. To be
+/// called once, before any other thread is started: those that were would not be spared the
+/// signals.
 void watch_signals();
 
 /// Whether the user has asked the work to stop.

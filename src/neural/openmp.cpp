@@ -61,8 +61,15 @@ InThisThread::InThisThread() {
   at::get_num_threads();
   threads_before_ = omp_get_max_threads();
   omp_set_num_threads(1);
+  sigset_t signals;
+  sigfillset(&signals);
+  for (const int own_fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL}) sigdelset(&signals, own_fault);
+  pthread_sigmask(SIG_BLOCK, &signals, &signals_before_);
 }
 
-InThisThread::~InThisThread() { omp_set_num_threads(threads_before_); }
+InThisThread::~InThisThread() {
+  pthread_sigmask(SIG_SETMASK, &signals_before_, nullptr);
+  omp_set_num_threads(threads_before_);
+}
 
 }  // namespace gramloom::neural

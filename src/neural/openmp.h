@@ -1,6 +1,7 @@
 #pragma once
 
 #include <c10/core/GradMode.h>
+#include <signal.h>
 
 namespace gramloom::neural {
 
@@ -10,7 +11,9 @@ namespace gramloom::neural {
 void start_openmp();
 
 /// While one lives, those libraries work in this thread alone and record no gradients: for what a
-/// body of parallel_for calls, as its loop keeps the cores busy.
+/// body of parallel_for calls, as its loop keeps the cores busy. Signals wait, or find another
+/// thread: oneDNN's matrix products keep another pointer in the register of the stack pointer, and
+/// a handler's stack would be written into their numbers, or anywhere on the heap.
 class InThisThread {
  public:
   InThisThread();
@@ -20,6 +23,7 @@ class InThisThread {
  private:
   c10::NoGradGuard no_gradients_;
   int threads_before_;
+  sigset_t signals_before_;
 };
 
 }  // namespace gramloom::neural

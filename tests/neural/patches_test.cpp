@@ -1,6 +1,9 @@
 #include "neural/loss/patches.h"
 
 #include <gtest/gtest.h>
+#include <sys/time.h>
+
+#include <csignal>
 
 #include "core/error.h"
 #include "core/threads.h"
@@ -107,6 +110,25 @@ std::vector<Case> cases() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, Patches, testing::ValuesIn(cases()));
+
+// oneDNN's products use the register of the stack pointer otherwise: no handler may run meanwhile.
+TEST(PatchesUnderSignals, AreTheSame) {
+  const at::Tensor planes = numbers({3, 96, 96}, 1), filters = numbers({32, 3, 7, 7}, 2);
+  const at::Tensor expected = project_patches(planes, filters, Tile::both);
+  struct sigaction before {
+  }, nothing{};
+  nothing.sa_handler = [](int) {};
+  nothing.sa_flags = SA_RESTART;
+  sigaction(SIGALRM, &nothing, &before);
+  const itimerval often{{0, 200}, {0, 200}}, never{};  // microseconds
+  setitimer(ITIMER_REAL, &often, nullptr);
+  bool same = true;
+  for (int i = 0; i < 100; ++i)
+    same = same && at::equal(project_patches(planes, filters, Tile::both), expected);
+  setitimer(ITIMER_REAL, &never, nullptr);
+  sigaction(SIGALRM, &before, nullptr);
+  EXPECT_TRUE(same);
+}
 
 TEST(PatchesThatDoNotFit, AreAClearError) {
   const at::Tensor planes = numbers({1, 4, 9}, 1), filters = numbers({2, 1, 5, 5}, 2);
