@@ -167,6 +167,22 @@ class Synthesis {
     return resample(exemplar_, level_size(params_, size_of(exemplar_), state_.level), Tile::none);
   }
 
+  // The picture of the coarser level. Values between pixels change fastest midway, where the edges
+  // always lie: from level to level this would add up to a seam. But what wraps has no edges, so
+  // they are elsewhere each time.
+  at::Tensor enlarged(Size size) const {
+    const Size old = size_of(state_.picture);
+    Random random = random_.stream(2).stream(static_cast<std::uint64_t>(state_.level));
+    const auto edge = [&](bool wraps, int side) {
+      return wraps ? std::int64_t{random.below(static_cast<std::uint32_t>(side))} : 0;
+    };
+    const std::int64_t y = edge(tiles_y(target_.tile), old.height);
+    const std::int64_t x = edge(tiles_x(target_.tile), old.width);
+    const at::Tensor shifted = at::roll(state_.picture, {y, x}, {1, 2});
+    return at::roll(resample(shifted, size, target_.tile),
+                    {-y * size.height / old.height, -x * size.width / old.width}, {1, 2});
+  }
+
   // Optimises one level; false when the synthesis should stop.
   bool run_level() {
     const Size size = level_size(params_, canvas_, state_.level);
@@ -176,7 +192,7 @@ class Synthesis {
     if (!state_.picture.defined())
       state_.picture = first_picture(size);
     else if (!resumed)
-      state_.picture = resample(state_.picture, size, target_.tile);
+      state_.picture = enlarged(size);
 
     if (state_.iteration >= iterations || out_of_time()) return true;
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "neural/settings.h"
@@ -135,6 +136,35 @@ TEST(Neural, CoarseToFineEndsAtTheFinestSize) {
   EXPECT_EQ(texture.image.size(), (Size{50, 70}));
   EXPECT_EQ(trace.steps.back().step, 12);
   EXPECT_EQ(trace.steps.back().steps, 12);
+}
+
+// Of neighbours along rows: the mean across the seam, as a part of the mean inside.
+double step_at_the_seam(const Image& image) {
+  double seam = 0, inside = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const int next = (x + 1) % image.width;
+      (next == 0 ? seam : inside) += std::abs(*image.at(next, y) - *image.at(x, y));
+    }
+  return seam * (image.width - 1) / inside;
+}
+
+// No step of the optimiser: what enlarging does from level to level.
+TEST(Neural, TheSeamIsAsSmoothAsTheRest) {
+  Image exemplar(128, 128, 1);
+  Random random(1);
+  for (float& value : exemplar.pixels) value = random.uniform();
+  NeuralParams params = with_preset(Preset::fast);
+  params.iterations = {0};
+  constexpr int seeds = 16;
+  double mean = 0;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed)
+    mean +=
+        step_at_the_seam(
+            synthesise(params, {{{exemplar}}, {{128, 128}, Tile::both}, Random(seed)}, {}).image) /
+        seeds;
+  EXPECT_GT(mean, 0.75);
+  EXPECT_LT(mean, 1.25);
 }
 
 TEST(Neural, StopsByLossAndBySeconds) {
