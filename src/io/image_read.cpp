@@ -28,7 +28,11 @@ std::unique_ptr<OIIO::ImageInput> likely_reader(const fs::path& path) {
   const std::string ending = OIIO::Strutil::lower(path.extension().string());
   for (const auto& [format, endings] : OIIO::get_extension_map())
     for (const std::string& known : endings)
-      if (ending == "." + known) return OIIO::ImageInput::create(known);
+      if (ending == "." + known) {
+        auto reader = OIIO::ImageInput::create(known);
+        if (!reader) OIIO::geterror();  // or OpenImageIO prints it when the process ends
+        return reader;
+      }
   return nullptr;
 }
 

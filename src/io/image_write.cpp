@@ -61,7 +61,9 @@ OIIO::TypeDesc oiio_type(PixelType type) {
 /// OpenImageIO sees the extension alone: in a name, '?' would mean something to it.
 std::unique_ptr<OIIO::ImageOutput> writer_for(const std::string& extension) {
   const bool plain = extension.find_first_of("?/") == std::string::npos;
-  return plain ? OIIO::ImageOutput::create("image" + extension) : nullptr;
+  auto writer = plain ? OIIO::ImageOutput::create("image" + extension) : nullptr;
+  if (!writer) OIIO::geterror();  // or OpenImageIO prints it when the process ends
+  return writer;
 }
 
 const Format& format_of(const OIIO::ImageOutput* output, const std::string& extension) {
@@ -138,7 +140,8 @@ OIIO::ImageSpec make_spec(const Format& format, const Image& image, const Encodi
 }
 
 /// The values as the file holds them. Of floats OpenImageIO would convert one row after the other,
-/// each with all of its threads, and wait.
+/// each with all of its threads, and wait; and 2.5 turns a PNM of floats upside down, whatever type
+/// the file has.
 std::vector<std::byte> stored_values(const OIIO::ImageSpec& spec, const Image& image) {
   std::vector<std::byte> values(spec.image_bytes());
   OIIO::convert_image(image.channels, image.width, image.height, 1, image.pixels.data(),

@@ -126,13 +126,19 @@ void add_scores(Run& run, const PlannedJob& planned, JobRecord& record, RunLog& 
 // The exemplar lies beside its results, so that the folder tells the whole story wherever it goes.
 void keep_exemplar(Run& run, const Job& job, std::optional<std::size_t>& kept) {
   if (job.exemplar == kept || !job.exemplar) return;
-  kept = job.exemplar;
   if (!run.plan.exemplars[*job.exemplar].error.empty()) return;  // its jobs say so
+  const Exemplar* exemplar = nullptr;
+  try {
+    exemplar = &request_of(run, job).exemplars.front();
+  } catch (const std::exception&) {  // the job, which needs it too, says so
+    return;
+  }
+  kept = job.exemplar;
   or_complain(run, [&] {
     const fs::path folder = run.options.output / exemplar_name(run.config, job);
     create_folder(folder);
     remove_stale_temporaries(folder, "exemplar");
-    write_exemplar(folder, request_of(run, job).exemplars.front(), run.files);
+    write_exemplar(folder, *exemplar, run.files);
   });
 }
 

@@ -1,4 +1,4 @@
-// The exemplars that we ship are what their config makes, byte for byte.
+// The exemplars that we ship are what their config makes, value for value.
 #include "cli/workspace.h"
 #include "source_folder.h"
 
@@ -8,6 +8,16 @@ namespace {
 namespace fs = std::filesystem;
 
 class Exemplars : public Workspace {};
+
+// Of the files themselves, the compression differs between versions of zlib and libpng.
+void expect_same(const fs::path& shipped, const fs::path& made) {
+  const ImageFile there = read_image(shipped), here = read_image(made);
+  EXPECT_EQ(there.image.size(), here.image.size()) << shipped;
+  EXPECT_EQ(there.image.channels, here.image.channels) << shipped;
+  EXPECT_TRUE(there.image == here.image) << shipped;
+  EXPECT_TRUE(there.encoding == here.encoding) << shipped;
+  EXPECT_EQ(there.metadata, here.metadata) << shipped;
+}
 
 TEST_F(Exemplars, AreWhatTheirConfigMakes) {
   const fs::path data = source_folder() / "data";
@@ -23,7 +33,7 @@ TEST_F(Exemplars, AreWhatTheirConfigMakes) {
       const fs::path shipped = data / (name + map + ".png");
       ++pictures;
       ASSERT_TRUE(fs::exists(shipped)) << shipped;
-      EXPECT_TRUE(read_text(shipped) == read_text(file.path())) << shipped;
+      expect_same(shipped, file.path());
     }
   }
   EXPECT_GE(pictures, 12);

@@ -14,12 +14,13 @@ namespace fs = std::filesystem;
 
 class Interruption : public Workspace {
  protected:
-  // A quilting job of several seconds, and a short one after it.
+  // A job of a minute in many short steps, between which a busy machine looks up too; and a short
+  // job after it.
   void write_long_config() const {
     write_text(folder_ / "long.toml",
-               "size = [6000, 6000]\n"
+               "size = [400, 400]\n"
                "[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"
-               "[[method]]\nname = 'long'\nkind = 'quilting'\npatch_size = 6\n"
+               "[[method]]\nname = 'long'\nkind = 'patchmatch'\niterations = 1000\n"
                "[[method]]\nname = 'next'\nkind = 'quilting'\npatch_size = 8\n");
   }
 
@@ -212,7 +213,7 @@ TEST_F(Interruption, ADiskThatIsFullFailsTheJobInOneLine) {
 // An iterative method keeps its state, so that a stopped job goes on where it was.
 class Iterative : public Interruption {
  protected:
-  static constexpr int iterations = 40;
+  static constexpr int iterations = 200;  // more than go by before a busy machine lets us look
   const std::string job_ = "e/gram/seed1";
 
   Iterative() {
