@@ -36,7 +36,9 @@ ExitCode dispatch(int argc, char** argv) {
                                       add_score(app),
                                       add_report(app),
                                       add_maps(app),
-                                      add_preview(app)};
+                                      add_preview(app),
+                                      add_tile(app),
+                                      add_export(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {

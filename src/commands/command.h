@@ -27,6 +27,8 @@ Command add_score(CLI::App& program);
 Command add_report(CLI::App& program);
 Command add_maps(CLI::App& program);
 Command add_preview(CLI::App& program);
+Command add_tile(CLI::App& program);
+Command add_export(CLI::App& program);
 
 /// Writes to standard output. A reader who has gone away is no mistake of ours; else throws Error.
 ExitCode print(const std::string& text);

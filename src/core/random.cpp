@@ -12,13 +12,6 @@ namespace {
 std::uint32_t low(std::uint64_t v) { return static_cast<std::uint32_t>(v); }
 std::uint32_t high(std::uint64_t v) { return static_cast<std::uint32_t>(v >> 32); }
 
-template <std::size_t N>
-double polynomial(const double (&coefficients)[N], double x) {
-  double sum = 0;
-  for (const double c : coefficients) sum = sum * x + c;
-  return sum;
-}
-
 constexpr std::size_t lanes = 32;  // fewer become a list of statements that are not vectorised
 
 /// philox() of counters (block + lane, stream), lane by lane.
@@ -49,27 +42,6 @@ GRAMLOOM_SIMD void philox_lanes(std::uint64_t block, std::uint64_t stream, std::
     words[4 * i + 2] = c[i];
     words[4 * i + 3] = d[i];
   }
-}
-
-// Acklam's rational approximation of the inverse normal distribution function (relative error
-// 1.15e-9, well below float's): only division, square root and our own logarithm.
-double inverse_normal(double p) {
-  constexpr double a[] = {-3.969683028665376e+01, 2.209460984245205e+02,  -2.759285104469687e+02,
-                          1.383577518672690e+02,  -3.066479806614716e+01, 2.506628277459239e+00};
-  constexpr double b[] = {-5.447609879822406e+01, 1.615858368580409e+02,  -1.556989798598866e+02,
-                          6.680131188771972e+01,  -1.328068155288572e+01, 1.0};
-  constexpr double c[] = {-7.784894002430293e-03, -3.223964580411365e-01, -2.400758277161838e+00,
-                          -2.549732539343734e+00, 4.374664141464968e+00,  2.938163982698783e+00};
-  constexpr double d[] = {7.784695709041462e-03, 3.224671290700398e-01, 2.445134137142996e+00,
-                          3.754408661907416e+00, 1.0};
-  constexpr double tail = 0.02425;
-  if (p > 1 - tail) return -inverse_normal(1 - p);
-  if (p < tail) {
-    const double q = portable::sqrt(-2 * portable::log(p));
-    return polynomial(c, q) / polynomial(d, q);
-  }
-  const double q = p - 0.5;
-  return q * polynomial(a, q * q) / polynomial(b, q * q);
 }
 
 }  // namespace
@@ -124,7 +96,7 @@ std::uint32_t Random::below(std::uint32_t count) {
 }
 
 float Random::normal() {
-  return static_cast<float>(inverse_normal((static_cast<double>(bits()) + 0.5) * 0x1p-32));
+  return static_cast<float>(portable::inverse_normal((static_cast<double>(bits()) + 0.5) * 0x1p-32));
 }
 
 }  // namespace gramloom

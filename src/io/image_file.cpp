@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/modules.h"
 #include "io/image_algorithms.h"
+#include "io/image_rows.h"
 #include "io/pictures_module.h"
 
 namespace gramloom {
@@ -24,6 +25,17 @@ PixelType stored_type(const std::string& extension, PixelType type) {
 
 PixelDifference difference(const Image& a, const Image& b, double tolerance) {
   return open_module<PicturesModule>().difference(a, b, tolerance);
+}
+
+std::unique_ptr<ImageRows> open_image_rows(const std::filesystem::path& path, Size size,
+                                           int channels, const Encoding& encoding,
+                                           const Metadata& metadata) {
+  return open_module<PicturesModule>().open_rows(path, size, channels, encoding, metadata);
+}
+
+std::string encoded_image(const std::string& extension, const Image& image,
+                          const Encoding& encoding) {
+  return open_module<PicturesModule>().encoded(extension, image, encoding);
 }
 
 }  // namespace gramloom

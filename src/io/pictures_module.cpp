@@ -4,6 +4,7 @@ namespace gramloom {
 
 extern "C" const PicturesModule gramloom_pictures_module;
 const PicturesModule gramloom_pictures_module{pictures::read, pictures::write,
-                                              pictures::stored_type, pictures::difference};
+                                              pictures::stored_type, pictures::difference,
+                                              pictures::open_rows, pictures::encoded};
 
 }  // namespace gramloom

@@ -6,12 +6,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <utility>
 
 #include "core/error.h"
+#include "io/replacing_file.h"
 
 namespace gramloom {
 namespace {
@@ -73,27 +73,10 @@ void write_device(const fs::path& path, std::string_view text) {
     throw system_error(path, "write");
 }
 
-/// Another name in the folder of `path`: the process and a count keep writers apart.
-fs::path temporary_name(const fs::path& path) {
-  static std::atomic<unsigned> count{0};
-  // A file name has at most 255 bytes.
-  return path.parent_path() / fmt::format(".{}.{}.{}.tmp", path.filename().string().substr(0, 200),
-                                          getpid(), count.fetch_add(1));
-}
-
 void replace_file(const fs::path& path, std::string_view text) {
-  const fs::path temporary = temporary_name(path);
-  File file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
-  if (!file.is_open()) throw system_error(path, "write");
-  if (!write_all(file.descriptor(), text) || fsync(file.descriptor()) != 0 || !file.close_now() ||
-      rename(temporary.c_str(), path.c_str()) != 0) {
-    const Error error = system_error(path, "write");
-    unlink(temporary.c_str());
-    throw error;
-  }
-  // The new name survives a power cut only once its folder is on the disk, too.
-  const File folder(path.has_parent_path() ? path.parent_path() : ".", O_RDONLY | O_DIRECTORY);
-  if (folder.is_open()) fsync(folder.descriptor());
+  ReplacingFile file(path);
+  if (!write_all(file.descriptor(), text)) throw system_error(path, "write");
+  file.commit();
 }
 
 // /dev/null or a terminal.

@@ -18,6 +18,7 @@
 #include "core/request.h"
 #include "neural/synthesis.h"
 #include "procedural/texture.h"
+#include "surface/tiling.h"
 
 namespace gramloom {
 
@@ -25,7 +26,7 @@ namespace gramloom {
 /// the functions synthesise and estimate beside it.
 using Method =
     std::variant<NeuralParams, QuiltingParams, PatchmatchParams, PixelParams, PyramidParams,
-                 PhaseParams, MarkovParams, HistogramParams, ProceduralParams>;
+                 PhaseParams, MarkovParams, HistogramParams, TilingParams, ProceduralParams>;
 
 /// A method that holds one of several sub-methods, chosen by their `name` under the key
 /// `variant_key`, in its member `texture`.

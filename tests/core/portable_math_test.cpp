@@ -30,6 +30,13 @@ TEST(PortableMath, AgreesWithTheMathematicsLibrary) {
   }
 }
 
+TEST(PortableMath, TheInverseNormalDistributionIsOneOfErf) {
+  for (double p = 0.0005; p < 1; p += 0.0005)
+    EXPECT_NEAR(0.5 * std::erfc(-portable::inverse_normal(p) / std::sqrt(2.0)), p, 1e-9) << p;
+  EXPECT_EQ(portable::inverse_normal(0.5), 0);
+  EXPECT_NEAR(portable::inverse_normal(1e-9), -5.9978070150076869, 1e-7);
+}
+
 TEST(PortableMath, SpecialValues) {
   EXPECT_EQ(portable::sin(0), 0);
   EXPECT_EQ(portable::cos(0), 1);

@@ -1,0 +1,252 @@
+#include "commands/export_run.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/error.h"
+#include "io/field_values.h"
+#include "io/image_file.h"
+#include "io/text_file.h"
+#include "jobs/machine.h"
+#include "jobs/map_file.h"
+#include "jobs/pattern.h"
+#include "report/preview.h"
+#include "runs/job_files.h"
+#include "runs/run_folder.h"
+#include "surface/export/gltf.h"
+#include "surface/export/materialx.h"
+#include "surface/maps.h"
+
+namespace gramloom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A job's pictures by what they are to a material.
+struct MaterialFiles {
+  std::string name;
+  fs::path colour, normal, height, roughness, metalness, occlusion;
+  GreenAxis green = GreenAxis::up;
+  double strength = 0;
+  Tile tile = Tile::none;
+};
+
+fs::path* member_of(MaterialFiles& files, const std::string& map) {
+  const auto is = [&](std::initializer_list<std::string_view> words) {
+    return std::ranges::find(words, std::string_view(map)) != words.end();
+  };
+  if (is({"normal", "normals", "nrm"})) return &files.normal;
+  if (is({"height", "displacement", "disp", "bump"})) return &files.height;
+  if (is({"roughness", "rough"})) return &files.roughness;
+  if (is({"metalness", "metallic", "metal"})) return &files.metalness;
+  if (is({"occlusion", "ao", "ambient_occlusion"})) return &files.occlusion;
+  return nullptr;
+}
+
+// "seed1_height.png" of the job "…/seed1" is its map "height".
+std::string map_of(const std::string& job, const std::string& file) {
+  const std::string stem = fs::path(file).stem().string();
+  const std::string own = fs::path(job).filename().string() + "_";
+  return stem.starts_with(own) ? stem.substr(own.size()) : "";
+}
+
+Json settings_of(const JobRecord& record, const char* key) {
+  return record.settings.is_object() ? record.settings.value(key, Json::object()) : Json::object();
+}
+
+// Where the green of the job's normals points: those of the exemplar keep their way, those that a
+// run makes of a height have the way of [surface].
+GreenAxis green_of(const JobRecord& record, const std::string& map) {
+  const auto is_down = [](const Json& settings) { return settings.value("green", "") == "down"; };
+  const Json maps = settings_of(record, "exemplar").value("maps", Json::object());
+  if (maps.is_object() && maps.contains(map)) {
+    const Json& entry = maps.at(map);
+    MapFile file;
+    if (entry.is_object()) {
+      file.image = entry.value("image", "");
+      if (entry.contains("green") && entry.at("green").is_string())
+        file.green = is_down(entry) ? GreenAxis::down : GreenAxis::up;
+    }
+    return green_of_map(map, file);
+  }
+  return is_down(settings_of(record, "surface")) ? GreenAxis::down : GreenAxis::up;
+}
+
+double strength_of(const JobRecord& record) {
+  const Json surface = settings_of(record, "surface");
+  return surface.is_object() ? surface.value("strength", MapParams().strength)
+                             : MapParams().strength;
+}
+
+Tile tile_of(const JobRecord& record) {
+  const std::string word =
+      record.settings.is_object() ? record.settings.value("tile", "none") : "none";
+  constexpr auto names = enum_names<Tile>;
+  const auto found = std::ranges::find(names, word);
+  return found == names.end() ? Tile::none : static_cast<Tile>(found - names.begin());
+}
+
+MaterialFiles files_of(const ExportWork& work, const JobOnDisk& job) {
+  MaterialFiles files;
+  files.name = job.name;
+  files.tile = tile_of(job.record);
+  files.strength = work.strength > 0 ? work.strength : strength_of(job.record);
+  const fs::path folder = (work.run / job.name).parent_path();
+  for (const std::string& file : job.record.files) {
+    if (fs::path(file).filename() != file) throw Error("{} is elsewhere", file);
+    const std::string map = map_of(job.name, file);
+    if (file == job.record.files.front()) {
+      files.colour = folder / file;
+    } else if (fs::path* member = member_of(files, map); member && member->empty()) {
+      *member = folder / file;
+      if (member == &files.normal) files.green = green_of(job.record, map);
+    }
+  }
+  return files;
+}
+
+// --- glTF ---------------------------------------------------------------------------------------
+
+// 8-bit sRGB of three channels, or four with alpha.
+Image colours_of(const ImageFile& file) {
+  const Image shown = preview(file, white_of(file));
+  const bool alpha = shown.channels == 2 || shown.channels == 4;
+  Image colours(shown.size(), alpha ? 4 : 3);
+  for (int y = 0; y < shown.height; ++y)
+    for (int x = 0; x < shown.width; ++x)
+      for (int c = 0; c < colours.channels; ++c)
+        colours.at(x, y)[c] =
+            shown.at(x, y)[c == 3 ? shown.channels - 1 : std::min(c, shown.channels >= 3 ? 2 : 0)];
+  return colours;
+}
+
+std::optional<Image> read_map(const fs::path& file, Size size) {
+  if (file.empty()) return std::nullopt;
+  const Image map = read_image(file).image;
+  if (map.size() != size)
+    throw Error("{} has {}×{} pixels, its colours {}×{}", file.filename().string(), map.width,
+                map.height, size.width, size.height);
+  return map;
+}
+
+std::optional<Image> read_channel(const fs::path& file, Size size) {
+  const auto map = read_map(file, size);
+  return map ? std::optional(extract_channels(*map, 0, 1)) : std::nullopt;
+}
+
+MaterialSet read_material(const MaterialFiles& files) {
+  MaterialSet material;
+  material.name = files.name;
+  material.colour = colours_of(read_image(files.colour));
+  const Size size = material.colour.size();
+  if (const auto normals = read_map(files.normal, size))
+    material.normal = colours_to_normals(*normals, files.green);
+  material.height = read_channel(files.height, size);
+  material.roughness = read_channel(files.roughness, size);
+  material.metalness = read_channel(files.metalness, size);
+  material.occlusion = read_channel(files.occlusion, size);
+  material.strength = files.strength;
+  material.tile = files.tile;
+  return material;
+}
+
+// --- MaterialX ----------------------------------------------------------------------------------
+
+bool is_linear(const Encoding& encoding) {
+  const std::string& space = encoding.colour_space;
+  return space.starts_with("lin") || space.starts_with("Lin") || space == "scene_linear";
+}
+
+// The files themselves; but normals point up, and where there are none they are made of the height.
+fs::path write_materialx(const fs::path& stem, const MaterialFiles& files) {
+  const fs::path folder = stem.parent_path();
+  const auto copy = [&](const fs::path& file) -> fs::path {
+    if (file.empty()) return {};
+    write_text(folder / file.filename(), read_text(file));
+    return file.filename();
+  };
+  const ImageFile colour = read_image(files.colour);
+  MaterialXMaps maps{files.name,
+                     copy(files.colour),
+                     is_linear(colour.encoding),
+                     "",
+                     copy(files.height),
+                     copy(files.roughness),
+                     copy(files.metalness),
+                     copy(files.occlusion),
+                     files.strength / colour.image.width};
+  const fs::path normal = stem.filename().string() + "_normal.png";
+  const auto write_normals = [&](const Image& normals) {
+    write_image(folder / normal, normals_to_colours(normals, GreenAxis::up),
+                {PixelType::uint16, "", {}});
+    maps.normal = normal;
+  };
+  if (!files.normal.empty() && files.green == GreenAxis::up)
+    maps.normal = copy(files.normal);
+  else if (!files.normal.empty())
+    write_normals(colours_to_normals(read_image(files.normal).image, files.green));
+  else if (!files.height.empty())
+    write_normals(normals_from_height(*read_channel(files.height, colour.image.size()),
+                                      files.strength, files.tile));
+  fs::path document = stem;
+  document += ".mtlx";
+  write_text(document, materialx_document(maps));
+  return document;
+}
+
+// Never into the run's own folder, whose files have the same names.
+void check_folder(const ExportWork& work) {
+  std::error_code ignored;
+  if (fs::equivalent(work.run, work.output, ignored))
+    throw ConfigError("export {}: --output {} is the run's own folder; choose another",
+                      work.run.string(), work.output.string());
+}
+
+bool is_wanted(const ExportWork& work, const JobOnDisk& job) {
+  return work.only.empty() || matches(work.only, job.name) ||
+         matches(work.only, fs::path(job.name).parent_path().generic_string());
+}
+
+RunOnDisk read_results(const ExportWork& work) {
+  try {
+    return read_run(work.run);
+  } catch (const Error& error) {
+    throw ConfigError("export {}: {}", work.run.string(), error.what());
+  }
+}
+
+}  // namespace
+
+Exported export_run(const ExportWork& work) {
+  const RunOnDisk run = read_results(work);
+  check_folder(work);
+  std::vector<const JobOnDisk*> finished;
+  std::size_t wanted = 0;
+  for (const JobOnDisk& job : run.jobs) {
+    if (!is_wanted(work, job)) continue;
+    ++wanted;
+    if (is_finished(job.record, (work.run / job.name).parent_path())) finished.push_back(&job);
+  }
+  if (wanted == 0)
+    throw ConfigError("export {}: no job matches --only {}", work.run.string(), work.only);
+  if (finished.empty())
+    throw ConfigError("export {}: none of {} job{} is finished, with its pictures there",
+                      work.run.string(), wanted, wanted == 1 ? "" : "s");
+  Exported exported;
+  for (const JobOnDisk* job : finished) {
+    const fs::path stem = work.output / job->name;
+    create_folder(stem.parent_path());
+    const MaterialFiles files = files_of(work, *job);
+    exported.documents.push_back(
+        work.target == ExportTarget::gltf
+            ? write_gltf(stem, read_material(files), "gramloom " + std::string(version())).front()
+            : write_materialx(stem, files));
+  }
+  if (finished.size() < wanted)
+    exported.notes.push_back(fmt::format("{} of {} jobs left out: they are not finished",
+                                         wanted - finished.size(), wanted));
+  return exported;
+}
+
+}  // namespace gramloom

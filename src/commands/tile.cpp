@@ -1,0 +1,141 @@
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <memory>
+
+#include "commands/command.h"
+#include "commands/config_options.h"
+#include "commands/field_options.h"
+#include "core/error.h"
+#include "core/threads.h"
+#include "jobs/interruption.h"
+#include "jobs/progress_bar.h"
+#include "jobs/tile_picture.h"
+
+namespace gramloom {
+
+namespace {
+
+constexpr int longest_side = 1'000'000;
+
+struct TileArguments {
+  TileWork work;
+  std::string picture;
+  std::string output;
+  std::string size;
+  std::vector<std::string> maps;
+  int max_side = 0;
+  int threads = 0;
+  bool quiet = false;
+};
+
+// "16384x8192", or one number for a square.
+Size size_of(const std::string& text) {
+  const auto cross = text.find_first_of("xX");
+  const auto number = [&](std::string_view word) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size() || value < 1 ||
+        value > longest_side)
+      throw ConfigError("--size {}: needed is WIDTHxHEIGHT, each from 1 to {} pixels", text,
+                        longest_side);
+    return value;
+  };
+  const std::string_view words(text);
+  if (cross == std::string::npos) return {number(words), number(words)};
+  return {number(words.substr(0, cross)), number(words.substr(cross + 1))};
+}
+
+NamedFiles<MapFile> maps_of(const std::vector<std::string>& words) {
+  NamedFiles<MapFile> maps;
+  for (const std::string& word : words) {
+    const auto equals = word.find('=');
+    const std::string name = word.substr(0, equals);
+    if (equals == std::string::npos || name.empty() || equals + 1 == word.size() ||
+        name.find('/') != std::string::npos)
+      throw ConfigError("--map {}: needed is NAME=FILE, such as height=stones_height.png", word);
+    MapFile file;
+    file.image = word.substr(equals + 1);
+    if (!maps.emplace(name, file).second)
+      throw ConfigError("--map {}: there are two maps of this name", word);
+  }
+  return maps;
+}
+
+ExitCode tile(const TileArguments& arguments) {
+  set_thread_count(arguments.threads);
+  TileWork work = arguments.work;
+  work.picture = arguments.picture;
+  work.output = arguments.output;
+  work.size = size_of(arguments.size);
+  work.maps = maps_of(arguments.maps);
+  if (arguments.max_side > 0) work.max_side = arguments.max_side;
+  watch_signals();
+  ProgressBar bar(progress_style(arguments.quiet));
+  bar.start(work.output.filename().string(), 1, 1);
+  Control control;
+  control.progress = [&](const Progress& progress) {
+    bar.update(progress);
+    return !stop_asked();
+  };
+  try {
+    const TiledFiles tiled = tile_picture(work, control);
+    for (const std::string& note : tiled.notes) print_message(fmt::format("note: {}", note));
+    std::string text;
+    for (const auto& file : tiled.files) text += file.string() + "\n";
+    return print(text);
+  } catch (const Interrupted&) {
+    bar.complaint("gramloom: interrupted; nothing is written");
+    return interrupted;
+  }
+}
+
+}  // namespace
+
+Command add_tile(CLI::App& program) {
+  const auto arguments = std::make_shared<TileArguments>();
+  TileWork& work = arguments->work;
+  CLI::App* command = program.add_subcommand(
+      "tile",
+      "Cover a picture of any size with a small one, without repetition (the method 'tiling'); "
+      "rows are written as they are made, so memory does not grow with the size");
+  command->add_option("picture", arguments->picture, "the small picture")->required();
+  command->add_option("--size", arguments->size, "of the result, pixels")
+      ->required()
+      ->type_name("WIDTHxHEIGHT");
+  command->add_option("--output", arguments->output, "the result (.png, .tif, .exr, .jpg …)")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("--map", arguments->maps,
+                   "a map of the picture, tiled with it and written beside the result as "
+                   "FILE_NAME; can be repeated")
+      ->type_name("NAME=FILE")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      ->add_option("--max-side", arguments->max_side,
+                   "scale the picture's longer side down to this")
+      ->check(CLI::Range(1, 65536))
+      ->type_name("PIXELS");
+  command->add_option("--seed", work.seed, "of the random numbers; 1")->type_name("N");
+  detail::add_word(*command, "--tile", work.tile, "edges of the result that meet; none");
+  command
+      ->add_option_function<std::string>(
+          "--pixel-type",
+          [&work](const std::string& word) {
+            const auto& words = enum_names<PixelType>;
+            work.pixel_type =
+                static_cast<PixelType>(std::find(words.begin(), words.end(), word) - words.begin());
+          },
+          "how the result stores a value (as the picture)")
+      ->check(CLI::IsMember(
+          std::vector<std::string>(enum_names<PixelType>.begin(), enum_names<PixelType>.end())))
+      ->type_name("");
+  add_threads(*command, arguments->threads);
+  command->add_flag("--quiet", arguments->quiet, "show no progress");
+  add_field_options(*command, work.params, "Tiling");
+  return {command, [arguments] { return tile(*arguments); }};
+}
+
+}  // namespace gramloom

@@ -1,0 +1,38 @@
+#include "surface/tiling.h"
+
+#include <algorithm>
+
+#include "surface/stochastic_tiling.h"
+
+namespace gramloom {
+
+Texture synthesise(const TilingParams& params, const Request& request, const Control& control) {
+  check_request<TilingParams>(request);
+  check_fields(params);
+  const Target& target = request.target;
+  control.step(0, target.size.height);
+  const StochasticTiling tiling(request.exemplars.front(), params, target.size, target.tile,
+                                request.random);
+  Image result(target.size, tiling.channels());
+  constexpr int rows_a_step = 64;
+  for (int y = 0; y < target.size.height; y += rows_a_step) {
+    control.step(y, target.size.height);
+    tiling.rows(y, std::min(rows_a_step, target.size.height - y), target.size.width,
+                result.at(0, y));
+  }
+  control.step(target.size.height, target.size.height);
+  return {std::move(result)};
+}
+
+Cost estimate(const TilingParams& params, const RequestSize& request) {
+  check_request<TilingParams>(request);
+  const ExemplarSize& exemplar = request.exemplars.front();
+  const double in = static_cast<double>(exemplar.size.width) * exemplar.size.height;
+  const double out = static_cast<double>(request.size.width) * request.size.height;
+  const double bytes_in = 4.0 * exemplar.channels * 4 + 32;  // four copies, and one sorted channel
+  const double seconds_out = params.rotation > 0 ? 5e-7 : 1e-8;
+  return {in * bytes_in + 4 * exemplar.channels * out,
+          1e-7 * in * exemplar.channels + seconds_out * exemplar.channels * out};
+}
+
+}  // namespace gramloom

@@ -1,0 +1,104 @@
+#include "surface/tiling_lattice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/portable_math.h"
+
+namespace gramloom {
+
+namespace {
+
+std::int64_t floor_divide(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
+
+// How many places there are for a piece of `length` pixels.
+std::uint32_t places(int side, int length, bool wraps) {
+  return static_cast<std::uint32_t>(wraps ? side : std::max(1, side - length + 1));
+}
+
+// A random whole number from `least` on, of `count`, that is a multiple of `period`, rounded; any,
+// where there is none.
+double random_shift(double least, std::uint32_t count, double period, Random& random) {
+  const double first = std::ceil(least / period), last = std::floor((least + count - 1) / period);
+  if (last < first) return least + random.below(count);
+  const auto multiples = static_cast<std::uint32_t>(last - first) + 1;
+  return std::round((first + random.below(multiples)) * period);
+}
+
+// A random middle for a disc of this radius.
+double disc_middle(int side, double radius, bool wraps, Random& random) {
+  const double share = random.uniform();
+  return wraps ? share * side : radius + share * std::max(0.0, side - 2 * radius);
+}
+
+}  // namespace
+
+TilingLattice::TilingLattice(const Shape& shape, Random random)
+    : shape_(shape),
+      random_(random),
+      across_(shape.side),
+      down_(shape.side * portable::sqrt(3) / 2) {
+  if (tiles_x(shape.tiles)) {
+    columns_ = static_cast<std::int64_t>(std::ceil(shape.result.width / across_));
+    across_ = static_cast<double>(shape.result.width) / static_cast<double>(columns_);
+  }
+  if (tiles_y(shape.tiles)) {  // every other row begins at the same place
+    rows_ = 2 * static_cast<std::int64_t>(std::ceil(shape.result.height / (2 * down_)));
+    down_ = static_cast<double>(shape.result.height) / static_cast<double>(rows_);
+  }
+}
+
+std::array<TilingCorner, 3> TilingLattice::around(double x, double y) const {
+  const double v = y / down_;
+  const double u = x / across_ - v / 2;
+  const auto column = static_cast<std::int64_t>(std::floor(u));
+  const auto row = static_cast<std::int64_t>(std::floor(v));
+  const double along = u - std::floor(u), up = v - std::floor(v);
+  const TilingCorner right{column + 1, row, along}, above{column, row + 1, up};
+  if (along + up < 1) return {{{column, row, 1 - along - up}, right, above}};
+  return {{{column + 1, row + 1, along + up - 1},
+           {right.column, right.row, 1 - up},
+           {above.column, above.row, 1 - along}}};
+}
+
+TilingPiece TilingLattice::piece(std::int64_t column, std::int64_t row) const {
+  // The point of the first period that has this piece, and how far away that is.
+  std::int64_t periods_right = 0, periods_down = 0;
+  if (rows_ > 0) {
+    periods_down = floor_divide(row, rows_);
+    row -= periods_down * rows_;
+    column += periods_down * rows_ / 2;
+  }
+  if (columns_ > 0) {
+    periods_right = floor_divide(column, columns_);
+    column -= periods_right * columns_;
+  }
+  const double right = static_cast<double>(periods_right) * shape_.result.width;
+  const double down = static_cast<double>(periods_down) * shape_.result.height;
+  const double x = across_ * (static_cast<double>(column) + static_cast<double>(row) / 2);
+  const double y = down_ * static_cast<double>(row);
+
+  const auto key =
+      (static_cast<std::uint64_t>(column) << 32) ^ (static_cast<std::uint64_t>(row) & 0xFFFFFFFFu);
+  Random random = random_.stream(key);
+  const Size from = shape_.exemplar;
+  const bool wraps_x = tiles_x(shape_.wraps), wraps_y = tiles_y(shape_.wraps);
+  if (!(shape_.rotation > 0)) {
+    const double left = std::ceil(x - across_ - 0.5), top = std::ceil(y - down_ - 0.5);
+    const auto places_x = places(from.width, piece_width(), wraps_x);
+    const auto places_y = places(from.height, piece_height(), wraps_y);
+    const double x0 = random_shift(-left, places_x, shape_.period_x, random);
+    const double y0 = random_shift(-top, places_y, shape_.period_y, random);
+    return {1, 0, x0 - right, y0 - down};
+  }
+  const double radius = std::max(across_, portable::sqrt(across_ * across_ / 4 + down_ * down_));
+  const double middle_x = disc_middle(from.width, radius, wraps_x, random);
+  const double middle_y = disc_middle(from.height, radius, wraps_y, random);
+  const double angle = shape_.rotation * portable::pi / 180 * (2.0 * random.uniform() - 1);
+  const double cosine = portable::cos(angle), sine = portable::sin(angle);
+  const double result_x = x + right, result_y = y + down;
+  return {cosine, sine, middle_x - cosine * result_x + sine * result_y,
+          middle_y - sine * result_x - cosine * result_y};
+}
+
+}  // namespace gramloom

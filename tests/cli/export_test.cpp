@@ -1,0 +1,107 @@
+// `gramloom export` from the command line.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "cli/workspace.h"
+#include "io/json_text.h"
+
+namespace gramloom {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class ExportCommand : public Workspace {
+ protected:
+  ExportCommand() {
+    const Image picture = read_image(folder_ / "e.png").image;
+    Image map(picture.size(), 1), normals(picture.size(), 3, 0.5f);
+    for (int y = 0; y < map.height; ++y)
+      for (int x = 0; x < map.width; ++x) {
+        *map.at(x, y) = *picture.at(x, y);
+        const float slope = 0.4f * std::sin(0.2f * static_cast<float>(y));
+        normals.at(x, y)[1] = 0.5f + slope / 2;
+        normals.at(x, y)[2] = 0.5f + std::sqrt(1 - slope * slope) / 2;
+      }
+    write_image(folder_ / "r.png", map, {});
+    write_image(folder_ / "n.png", normals, {});
+    write_text(folder_ / "m.toml",
+               "size = [40, 24]\ntile = 'both'\n"
+               "[[exemplar]]\nname = \"it's 100% #1\"\nimage = 'e.png'\n"
+               "maps = { roughness = 'r.png', normal = { image = 'n.png', green = 'down' } }\n"
+               "[[method]]\nname = 'q'\nkind = 'quilting'\npatch_size = 8\n"
+               "[[method]]\nname = 'h'\nkind = 'histogram'\n");
+    EXPECT_EQ(run({"run", "m.toml", "--quiet"}).exit_code, 0);
+  }
+
+  const std::string job_ = "it's 100% #1/q/seed1";
+};
+
+TEST_F(ExportCommand, GltfHasTheMapsAndGreenUp) {
+  const Outcome outcome =
+      run({"export", "out/m", "--target", "gltf", "--only", "*/q", "--output", "x"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(outcome.output, "x/" + job_ + ".gltf\n");
+  const Json document = parse_json(file("x/" + job_ + ".gltf"));
+  EXPECT_EQ(document["materials"][0]["name"], job_);
+  for (const Json& image : document["images"])
+    EXPECT_TRUE(fs::exists((folder_ / "x" / job_).parent_path() / image["uri"].get<std::string>()));
+  const Image before = read_image(folder_ / "out/m" / (job_ + "_normal.png")).image;
+  const Image after = read_image(folder_ / "x" / (job_ + "_normal.png")).image;
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t i = 1; i < after.pixels.size(); i += 3)
+    ASSERT_NEAR(after.pixels[i], 1 - before.pixels[i], 0.01f);
+  const Image packed =
+      read_image(folder_ / "x" / (job_ + "_occlusion_roughness_metalness.png")).image;
+  const Image roughness = read_image(folder_ / "out/m" / (job_ + "_roughness.png")).image;
+  for (std::size_t i = 0; i < roughness.pixels.size(); ++i)
+    ASSERT_EQ(packed.pixels[3 * i + 1], roughness.pixels[i]);
+}
+
+// The Khronos validator, where the environment says how to start it ("node validate.js").
+TEST_F(ExportCommand, TheKhronosValidatorIsContent) {
+  const char* validator = std::getenv("GRAMLOOM_GLTF_VALIDATOR");
+  if (!validator) GTEST_SKIP() << "GRAMLOOM_GLTF_VALIDATOR names no validator";
+  ASSERT_EQ(run({"export", "out/m", "--target", "gltf", "--output", "x"}).exit_code, 0);
+  for (const std::string job : {job_, std::string("it's 100% #1/h/seed1")}) {
+    const Outcome outcome = shell(folder_, fmt::format("{} \"x/{}.gltf\"", validator, job));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output << outcome.errors;
+  }
+}
+
+TEST_F(ExportCommand, MaterialXHasTheRunsOwnFiles) {
+  const Outcome outcome = run({"export", "out/m", "--target", "materialx", "--output", "x"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, HasSubstr(job_ + ".mtlx\n"));
+  EXPECT_EQ(file("x/" + job_ + ".png"), file("out/m/" + job_ + ".png"));
+  EXPECT_EQ(file("x/" + job_ + "_roughness.png"), file("out/m/" + job_ + "_roughness.png"));
+  EXPECT_THAT(file("x/" + job_ + ".mtlx"), HasSubstr("value=\"seed1_normal.png\""));
+  EXPECT_EQ(read_image(folder_ / "x" / (job_ + "_normal.png")).image.channels, 3);
+}
+
+TEST_F(ExportCommand, RefusesInOneLine) {
+  fs::create_directories(folder_ / "empty");
+  ASSERT_EQ(run({"run", "m.toml", "--quiet", "--output", "lost"}).exit_code, 0);
+  for (const auto* name : {"q", "h"})
+    fs::remove(folder_ / "lost/it's 100% #1" / name / "seed1.png");
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+      {{"empty", "--target", "gltf", "--output", "x"}, "export empty: "},
+      {{"out/m", "--target", "obj", "--output", "x"}, "--target"},
+      {{"out/m", "--target", "gltf", "--only", "none", "--output", "x"}, "no job matches"},
+      {{"out/m", "--target", "gltf", "--output", "out/m"}, "is the run's own folder"},
+      {{"lost", "--target", "gltf", "--output", "x"}, "none of 2 jobs is finished"}};
+  for (const auto& [arguments, message] : cases) {
+    std::vector<std::string> words{"export"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.exit_code, 2) << message;
+    EXPECT_THAT(outcome.errors, HasSubstr(message));
+    EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "x"));
+}
+
+}  // namespace
+}  // namespace gramloom
