@@ -5,9 +5,11 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "io/field_values.h"
 #include "io/json_fields.h"
 #include "metrics/map_scores.h"
 #include "report/preview.h"
+#include "report/surface_view.h"
 
 namespace gramloom {
 
@@ -79,11 +81,25 @@ void read_maps(const RunOnDisk& run, const std::string& name, ShownExemplar& sou
   }
 }
 
+// The copies of an exemplar and its maps for the lit view.
+Json exemplar_view(const RunOnDisk& run, const std::string& name, const std::string& picture,
+                   const ShownExemplar& source) {
+  SurfaceView view{{{"colour", picture}}, source.white};
+  for (const auto& [map, path] : source.shown["maps"].items()) {
+    const std::string known = surface_map_of(map);
+    const std::string file = exemplar_file(run.folder, name, "exemplar_" + map);
+    if (known.empty() || file.empty() || !view.files.emplace(known, file).second) continue;
+    if (known == "normal" && path.is_object()) view.green_down = path.value("green", "") == "down";
+  }
+  return surface_view_file(run.folder, name + "/exemplar", view);
+}
+
 ShownExemplar read_source(const RunOnDisk& run, const std::string& name, Json& trouble) {
   const Json config = exemplar_in_config(run.run, name);
   ShownExemplar source;
   source.shown = {{"name", name},
                   {"picture", nullptr},
+                  {"view", nullptr},
                   {"image", config.value("image", Json())},
                   {"maps", config.value("maps", Json::object())},
                   {"map_pictures", Json::array()}};
@@ -93,6 +109,7 @@ ShownExemplar read_source(const RunOnDisk& run, const std::string& name, Json& t
   try {
     const ImageFile exemplar = read_image(run.folder / file);
     source.white = white_of(exemplar);
+    source.shown["view"] = exemplar_view(run, name, file, source);
     source.shown["picture"] = {{"file", shown_file(run.folder, file, source.white)},
                                {"width", exemplar.image.width},
                                {"height", exemplar.image.height}};
@@ -100,6 +117,12 @@ ShownExemplar read_source(const RunOnDisk& run, const std::string& name, Json& t
     trouble.push_back(message_of(error));
   }
   return source;
+}
+
+Tile tile_of(const Json& settings) {
+  constexpr auto names = enum_names<Tile>;
+  const auto found = std::ranges::find(names, settings.value("tile", "none"));
+  return found == names.end() ? Tile::none : static_cast<Tile>(found - names.begin());
 }
 
 // "seed1_height.png" of the job "…/seed1" is its map "height".
@@ -147,6 +170,37 @@ Json origin_of(const RunOnDisk& run, const JobRecord& record) {
           {"edited", edited}};
 }
 
+// The copies of a job's pictures for the lit view, or null. Normals that a run makes of heights
+// point as its [surface] says, an exemplar's as the config says of the map.
+Json view_of(const RunOnDisk& run, const JobOnDisk& job, const ShownExemplar& source,
+             Json& trouble) {
+  const JobRecord& record = job.record;
+  if (!is_finished(record, (run.folder / job.name).parent_path())) return nullptr;
+  const Json settings = record.settings.is_object() ? record.settings : Json::object();
+  const auto table = [](const Json& json, const std::string& key) {
+    return json.contains(key) && json.at(key).is_object() ? json.at(key) : Json::object();
+  };
+  SurfaceView view{{}, source.white};
+  view.tile = tile_of(settings);
+  view.strength = table(settings, "surface").value("strength", view.strength);
+  view.green_down = table(settings, "surface").value("green", "") == "down";
+  for (const std::string& name : record.files) {
+    if (fs::path(name).filename() != name) return nullptr;
+    const std::string label = label_of(job.name, name);
+    const std::string map = name == record.files.front() ? "colour" : surface_map_of(label);
+    const std::string path = (fs::path(job.name).parent_path() / name).generic_string();
+    if (map.empty() || !view.files.emplace(map, path).second) continue;
+    const Json entry = table(table(table(settings, "exemplar"), "maps"), label);
+    if (map == "normal" && entry.contains("green")) view.green_down = entry.at("green") == "down";
+  }
+  try {
+    return surface_view_file(run.folder, job.name, view);
+  } catch (const std::exception& error) {
+    trouble.push_back(message_of(error));
+    return nullptr;
+  }
+}
+
 Json job_to_json(const RunOnDisk& run, const JobOnDisk& job, const ShownExemplar& source,
                  Json& trouble) {
   const JobRecord& record = job.record;
@@ -168,6 +222,7 @@ Json job_to_json(const RunOnDisk& run, const JobOnDisk& job, const ShownExemplar
           {"origin", origin_of(run, record)},
           {"machine", to_json_value(record.machine)},
           {"pictures", pictures_of(run, job, source, trouble)},
+          {"view", view_of(run, job, source, trouble)},
           {"copy_map", file_in_folder(run, record.copy_map)},
           {"trace", job.trace.rows.empty() ? Json() : thin_trace(job.trace, trace_points)}};
 }

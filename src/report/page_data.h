@@ -15,7 +15,8 @@ namespace gramloom {
 ///                peak_memory_mb, settings, metrics, score_error, copy_map, machine,
 ///                origin {config, set, threads, edited: whether the config has changed since},
 ///                pictures [{label, file} …]: the texture, then its maps,
-///                trace {steps, seconds, loss} or null} …]
+///                view: script with copies of them for the lit view (report/surface_view.h), or
+///                null; exemplars have one, too, trace {steps, seconds, loss} or null} …]
 ///   diversity  [{exemplar, method, value} …]
 /// Makes previews of pictures that browsers do not show (see shown_file). A picture that is missing
 /// or broken is left out and named in `trouble`.

@@ -3,7 +3,7 @@
 /** Everything that has a picture: {id, exemplar, job or null, title, width, height, views}. */
 const subjects = data.exemplars.flatMap((exemplar) => [
   ...(exemplar.picture ? [{ id: exemplar.name, exemplar: exemplar.name, job: null,
-    title: 'exemplar', width: exemplar.picture.width, height: exemplar.picture.height,
+    title: 'exemplar', view: exemplar.view, width: exemplar.picture.width, height: exemplar.picture.height,
     views: [{ label: 'picture', file: exemplar.picture.file }, ...exemplar.map_pictures] }] : []),
   ...data.jobs.filter((job) => job.exemplar === exemplar.name).map((job) => ({
     id: job.name, exemplar: exemplar.name, job, title: jobLabel(job),

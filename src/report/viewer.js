@@ -1,6 +1,7 @@
 // One picture enlarged: flipped with any other, tiled, its copy map, its settings and its command.
 
-const view = { a: null, b: null, showB: false, label: 'picture', tiled: false };
+const view = { a: null, b: null, showB: false, label: 'picture', tiled: false,
+  surface: null };  // 'ball', 'wall': lit, in place of the picture
 const dialog = byId('viewer');
 
 /** The picture that stands in for `subject` in another exemplar's row: the same method and seed. */
@@ -15,7 +16,7 @@ function openViewer(subject) {
   const others = subjects.filter((other) => other.exemplar === subject.exemplar && other !== subject &&
     other.views.length > 0);
   Object.assign(view, { a: subject, b: subject === source ? others[0] ?? null : source ?? others[0] ?? null,
-    showB: false, label: 'picture', tiled: false });
+    showB: false, label: 'picture', tiled: false, surface: null });
   drawViewer();
   if (!dialog.open) dialog.showModal();
   fitStage();
@@ -72,6 +73,7 @@ function layer(subject, hidden) {
 
 function drawStage() {
   const shown = view.showB ? view.b : view.a;
+  if (view.surface && surfaceFile(shown)) return drawSurfaceStage(shown);
   return el('div', { id: 'stage', class: 'stage', tabindex: '0', 'data-keep': 'stage', onclick: flip,
     'aria-label': `${describe(shown)}. Space flips`, role: 'group' },
   layer(view.a, view.showB), view.b && layer(view.b, !view.showB),
@@ -83,6 +85,7 @@ function drawStage() {
 function fitStage() {
   const stage = byId('stage');
   if (!dialog.open || !stage) return;
+  if (view.surface) return void paintSoon();
   const layers = [...stage.querySelectorAll('.layer[data-width]')];
   const times = view.tiled ? 2 : 1;
   const width = Math.max(...layers.map((node) => Number(node.dataset.width)), 1) * times;
@@ -116,10 +119,12 @@ function redraw(change) {
 }
 
 function drawControls() {
+  const shown = view.showB ? view.b : view.a;
   const labels = [...new Set([view.a, view.b].filter(Boolean)
     .flatMap((subject) => subject.views.map(({ label }) => label)))];
   const setLabel = (label) => {
     view.label = label;
+    view.surface = null;
     view.showB &&= view.b.views.some((own) => own.label === label);
   };
   const button = (text, on, hint, change) => el('button', { type: 'button', title: hint,
@@ -131,12 +136,19 @@ function drawControls() {
         onclick: () => redraw(() => { view.showB = !view.showB; }) }, 'flip'),
       view.b && pairChoice('B', view.b, (subject) => redraw(() => { view.b = subject; view.showB = true; }))),
     el('div', { class: 'segments', role: 'group', 'aria-label': 'What of it' },
-      button('2 × 2', view.tiled, 't', () => { view.tiled = !view.tiled; }),
-      labels.length > 1 && labels.length <= 5 && labels.map((label) => button(label, label === view.label,
+      button('2 × 2', view.tiled && !view.surface, 't', () => { view.tiled = Boolean(view.surface) || !view.tiled; view.surface = null; }),
+      surfaceFile(shown) && ['ball', 'wall'].map((shape) => button(shape, view.surface === shape,
+        shape === 'ball' ? 'b: on a lit ball' : 'w: as a lit wall',
+        () => { view.surface = view.surface === shape ? null : shape; })),
+      labels.length > 1 && labels.length <= 5 && labels.map((label) => button(label,
+        label === view.label && !view.surface,
         label === 'copy map' ? 'c: where in the exemplar each pixel came from' : null, () => setLabel(label)))),
+    view.surface && surfaceFile(shown) && el('div', { class: 'pair', id: 'surface-controls' }),
     labels.length > 5 && choice('Show', labels.map((label) => [label, label]), view.label,
       (label) => redraw(() => setLabel(label))),
-    el('p', { class: 'keys' }, '← → pictures · ↑ ↓ exemplars · space flips · t 2 × 2 · c copy map · esc closes'));
+    el('p', { class: 'keys' }, view.surface
+      ? 'drag, or arrow keys: turn · with shift: the light · + − repeat · space flips · b ball · w wall · esc closes'
+      : '← → pictures · ↑ ↓ exemplars · space flips · t 2 × 2 · b ball · w wall · c copy map · esc closes'));
 }
 
 function drawStrip() {
@@ -166,17 +178,24 @@ function drawViewer() {
       el('div', { class: 'viewer-left' }, drawStage(), drawControls(), drawStrip()),
       drawDetails(shown)));
   setAddress(`#view=${encodeURIComponent(view.a.id)}`);
+  showSurface();
 }
 
 function onKey(event) {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
   const target = event.target.tagName;
-  if (target === 'SELECT' || target === 'TEXTAREA' || event.target.id === 'settings') return;
+  if (target === 'SELECT' || target === 'TEXTAREA' || target === 'INPUT' || event.target.id === 'settings') return;
+  if (view.surface && event.target.id === 'stage' && surfaceKey(event)) return;
+  const lit = (shape) => () => redraw(() => { view.surface = view.surface === shape ? null : shape; });
   const actions = {
+    b: lit('ball'), w: lit('wall'),
     ArrowLeft: () => step(-1), ArrowRight: () => step(1),
     ArrowUp: () => stepExemplar(-1), ArrowDown: () => stepExemplar(1),
-    f: flip, t: () => redraw(() => { view.tiled = !view.tiled; }),
-    c: () => redraw(() => { view.label = view.label === 'copy map' ? 'picture' : 'copy map'; }),
+    f: flip, t: () => redraw(() => { view.tiled = Boolean(view.surface) || !view.tiled; view.surface = null; }),
+    c: () => redraw(() => {
+      view.surface = null;
+      view.label = view.label === 'copy map' ? 'picture' : 'copy map';
+    }),
   };
   if (target !== 'BUTTON' && target !== 'A') actions[' '] = flip;
   const action = actions[event.key];

@@ -36,7 +36,10 @@ constexpr int patience_ms = 300000;  // a busy machine starts a browser slowly
   // The sandbox asks for rights that containers and root do not have; the page is our own.
   execl(program.c_str(), program.c_str(), "--headless=new", "--no-sandbox", "--disable-gpu",
         "--disable-dev-shm-usage", "--no-first-run", "--disable-background-networking",
-        "--hide-scrollbars", folder.c_str(), "--remote-debugging-pipe", "about:blank", nullptr);
+        "--hide-scrollbars",
+        // WebGL by software.
+        "--use-angle=swiftshader", "--enable-unsafe-swiftshader", folder.c_str(),
+        "--remote-debugging-pipe", "about:blank", nullptr);
   _exit(127);
 }
 
