@@ -18,13 +18,24 @@ struct Fractal {
   float total = 0;  // of the amplitudes
 };
 
-/// Σ amplitude · noise: around 0, within ± total.
-template <int D, class Basis = ImprovedNoise<>>
-GRAMLOOM_INLINE Floats fractal_sum(const Fractal<D>& fractal, const Point<D>& p,
-                                   const Basis& basis = {}) {
-  Floats sum{};
-  for (std::size_t k = 0; k < static_cast<std::size_t>(fractal.octaves); ++k)
-    sum += fractal.amplitude[k] * noise(fractal.lattice[k], p, basis);
+/// (1 − |noise|)²: 1 on a ridge.
+GRAMLOOM_INLINE Floats ridge_of(Floats noise) { return square(1 - min(abs(noise), 1.0f)); }
+
+// Compiled once for 1 to 4 dimensions, by fractal.cpp, and not into every shader: it is much code.
+namespace detail {
+template <int D>
+void fractal_sum(const Fractal<D>& fractal, const Point<D>& p, Floats& sum);
+template <int D>
+void turbulence(const Fractal<D>& fractal, const Point<D>& p, Floats& sum);
+template <int D>
+void ridged(const Fractal<D>& fractal, const Point<D>& p, Floats& sum);
+}  // namespace detail
+
+/// Σ amplitude · noise: around 0, within ± total. The noise of all sums is improved noise.
+template <int D>
+GRAMLOOM_INLINE Floats fractal_sum(const Fractal<D>& fractal, const Point<D>& p) {
+  Floats sum;
+  detail::fractal_sum(fractal, p, sum);
   return sum;
 }
 
@@ -35,30 +46,19 @@ GRAMLOOM_INLINE Floats unit_sum(const Fractal<D>& fractal, const Point<D>& p) {
 }
 
 /// Σ amplitude · |noise|: in [0, total], with creases where the noise is zero (Perlin 1985).
-template <int D, class Basis = ImprovedNoise<>>
-GRAMLOOM_INLINE Floats turbulence(const Fractal<D>& fractal, const Point<D>& p,
-                                  const Basis& basis = {}) {
-  Floats sum{};
-  for (std::size_t k = 0; k < static_cast<std::size_t>(fractal.octaves); ++k)
-    sum += fractal.amplitude[k] * abs(noise(fractal.lattice[k], p, basis));
+template <int D>
+GRAMLOOM_INLINE Floats turbulence(const Fractal<D>& fractal, const Point<D>& p) {
+  Floats sum;
+  detail::turbulence(fractal, p, sum);
   return sum;
 }
 
-/// (1 − |noise|)²: 1 on a ridge.
-GRAMLOOM_INLINE Floats ridge_of(Floats noise) { return square(1 - min(abs(noise), 1.0f)); }
-
 /// Σ amplitude · (1 − |noise|)², each octave weighted by the one before: sharp ridges that branch
 /// (Musgrave 1994, "Texturing and Modeling", with offset 1); in [0, total].
-template <int D, class Basis = ImprovedNoise<>>
-GRAMLOOM_INLINE Floats ridged(const Fractal<D>& fractal, const Point<D>& p,
-                              const Basis& basis = {}) {
-  Floats sum{};
-  Floats weight = splat(1);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(fractal.octaves); ++k) {
-    const Floats ridge = ridge_of(noise(fractal.lattice[k], p, basis)) * weight;
-    sum += fractal.amplitude[k] * ridge;
-    weight = clamp(2 * ridge);
-  }
+template <int D>
+GRAMLOOM_INLINE Floats ridged(const Fractal<D>& fractal, const Point<D>& p) {
+  Floats sum;
+  detail::ridged(fractal, p, sum);
   return sum;
 }
 

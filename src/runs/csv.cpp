@@ -6,7 +6,7 @@ namespace gramloom {
 
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string csv_cell(std::string_view text) {
   std::string cell(text);
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return cell;
   for (std::size_t i = 0; (i = cell.find('"', i)) != std::string::npos; i += 2)
@@ -21,7 +21,7 @@ std::string quoted(std::string_view text) {
 std::string csv_line(const CsvRow& cells) {
   std::string line;
   for (const std::string& cell : cells) {
-    line += quoted(cell);
+    line += csv_cell(cell);
     line += ',';
   }
   if (!line.empty()) line.back() = '\n';

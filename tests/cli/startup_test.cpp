@@ -1,8 +1,5 @@
 // What the executable loads: libraries that bring many others along only for the jobs that need
 // them.
-#include <sys/resource.h>
-
-#include <functional>
 #include <sstream>
 
 #include "cli/workspace.h"
@@ -107,34 +104,6 @@ TEST_F(Startup, AMissingModuleFailsTheJobsThatNeedIt) {
   EXPECT_NE(outcome.errors.find("libgramloom_neural.so"), std::string::npos) << outcome.errors;
   EXPECT_FALSE(fs::exists(folder_ / "out/neural/e/n/seed1.png"));
   EXPECT_TRUE(fs::exists(folder_ / "out/c/e/q/seed1.png"));
-}
-
-// The least of some runs, as others may use the machine.
-double cpu_seconds(const std::function<void()>& command) {
-  const auto used = [] {
-    rusage usage{};
-    getrusage(RUSAGE_CHILDREN, &usage);
-    const auto seconds = [](timeval time) {
-      return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-  };
-  double least = 1e9;
-  for (int i = 0; i < 5; ++i) {
-    const double before = used();
-    command();
-    least = std::min(least, used() - before);
-  }
-  return least;
-}
-
-TEST_F(Startup, WhatNeedsNoPictureTakesLittleTime) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "sanitizers take their own time";
-#endif
-  EXPECT_LT(cpu_seconds([&] { run({"list"}); }), 0.08);
-  EXPECT_LT(cpu_seconds([&] { run({"--help"}); }), 0.08);
-  EXPECT_LT(cpu_seconds([&] { run({"check", "formula.toml"}); }), 0.08);
 }
 
 }  // namespace
