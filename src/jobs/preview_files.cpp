@@ -21,9 +21,19 @@ struct TextureFiles {
   std::map<std::string, fs::path> maps;
 };
 
+// The name that a texture's maps begin with: "wall" of wall.png, and of wall_colour.png, as the
+// pictures of a material are called.
+std::string texture_name(const fs::path& picture) {
+  std::string name = picture.stem().string();
+  for (const std::string_view ending : {"_colour"sv, "_color"sv, "_albedo"sv, "_basecolor"sv})
+    if (name.size() > ending.size() && name.ends_with(ending))
+      return name.substr(0, name.size() - ending.size());
+  return name;
+}
+
 // The map that a picture is of a texture by their names: "height" of wall.png for wall_height.jpg.
 std::string map_name(const fs::path& picture, const fs::path& map) {
-  const std::string stem = picture.stem().string() + "_", name = map.stem().string();
+  const std::string stem = texture_name(picture) + "_", name = map.stem().string();
   if (!name.starts_with(stem) || picture.parent_path() != map.parent_path()) return "";
   const std::string word = name.substr(stem.size());
   const bool known =
@@ -54,8 +64,7 @@ void find_beside(TextureFiles& texture, std::vector<std::string>& used) {
     const std::string own = texture.picture.extension().string();
     for (const std::string_view extension : {std::string_view(own), ".png"sv, ".exr"sv, ".tif"sv}) {
       fs::path file = texture.picture;
-      file.replace_filename(
-          fmt::format("{}_{}{}", texture.picture.stem().string(), name, extension));
+      file.replace_filename(fmt::format("{}_{}{}", texture_name(texture.picture), name, extension));
       std::error_code ignored;
       if (!fs::is_regular_file(file, ignored)) continue;
       texture.maps[std::string(name)] = file;

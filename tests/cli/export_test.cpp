@@ -65,7 +65,7 @@ TEST_F(ExportCommand, TheKhronosValidatorIsContent) {
   const char* validator = std::getenv("GRAMLOOM_GLTF_VALIDATOR");
   if (!validator) GTEST_SKIP() << "GRAMLOOM_GLTF_VALIDATOR names no validator";
   ASSERT_EQ(run({"export", "out/m", "--target", "gltf", "--output", "x"}).exit_code, 0);
-  for (const std::string job : {job_, std::string("it's 100% #1/h/seed1")}) {
+  for (const std::string& job : {job_, std::string("it's 100% #1/h/seed1")}) {
     const Outcome outcome = shell(folder_, fmt::format("{} \"x/{}.gltf\"", validator, job));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output << outcome.errors;
   }

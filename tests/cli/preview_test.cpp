@@ -36,6 +36,13 @@ TEST_F(PreviewCommand, ShowsATextureWithTheMapsBesideIt) {
   EXPECT_NE(made(), made("flat.png"));
 }
 
+TEST_F(PreviewCommand, TheColoursOfAMaterialFindItsMaps) {
+  write_image(folder_ / "wall_colour.png", Image(32, 32, 3, 0.5f), {});
+  const Outcome outcome = preview({"wall_colour.png", "--output", "x.png"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_THAT(outcome.errors, HasSubstr("height: wall_height.png"));
+}
+
 TEST_F(PreviewCommand, EveryShapeMappingAndLookup) {
   for (const std::string option :
        {"--shape=plane",     "--shape=cube",     "--shape=cylinder",         "--shape=teapot",

@@ -51,7 +51,7 @@ class SurfacePage : public testing::Test {
     write_humps(folder_);
     write_text(folder_ / "c.toml",
                "size = [64, 64]\ntile = 'both'\nscores = false\n"
-               "[[exemplar]]\nname = 'it''s 100% #1'\nimage = 'e.png'\n"
+               "[[exemplar]]\nname = \"it's 100% #1\"\nimage = 'e.png'\n"
                "maps = { height = 'h.png', occlusion = 'o.png', roughness = 'r.png' }\n"
                "[[exemplar]]\nname = 'plain'\nimage = 'e.png'\n"
                "[[method]]\nname = 'q'\nkind = 'quilting'\npatch_size = 24\n");
