@@ -23,9 +23,12 @@ ExitCode export_results(const ExportArguments& arguments) {
   work.output = arguments.output;
   const Exported exported = export_run(work);
   for (const std::string& note : exported.notes) print_message(fmt::format("note: {}", note));
+  for (const std::string& failure : exported.failures)
+    print_message(fmt::format("gramloom: {}", failure));
   std::string text;
   for (const auto& document : exported.documents) text += document.string() + "\n";
-  return print(text);
+  print(text);
+  return exported.failures.empty() ? all_done : job_failed;
 }
 
 }  // namespace

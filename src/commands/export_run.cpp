@@ -182,11 +182,14 @@ fs::path write_materialx(const fs::path& stem, const MaterialFiles& files) {
                 {PixelType::uint16, "", {}});
     maps.normal = normal;
   };
-  if (!files.normal.empty() && files.green == GreenAxis::up)
-    maps.normal = copy(files.normal);
-  else if (!files.normal.empty())
-    write_normals(colours_to_normals(read_image(files.normal).image, files.green));
-  else if (!files.height.empty())
+  if (!files.normal.empty()) {
+    const Image picture = read_image(files.normal).image;
+    if (files.green == GreenAxis::up && picture == as_colours(picture))
+      maps.normal = copy(files.normal);
+    else
+      write_normals(colours_to_normals(picture, files.green));
+  }
+  if (files.normal.empty() && !files.height.empty())
     write_normals(normals_from_height(*read_channel(files.height, colour.image.size()),
                                       files.strength, files.tile));
   fs::path document = stem;
@@ -195,12 +198,26 @@ fs::path write_materialx(const fs::path& stem, const MaterialFiles& files) {
   return document;
 }
 
-// Never into the run's own folder, whose files have the same names.
+// Says of a folder that its pictures and documents are an export's, and may be replaced by another.
+constexpr const char* mark = "export.json";
+
+// Never into the run's own folder or another's, whose files have the same names, nor among files of
+// the user's: a folder is new, empty, or an earlier export's.
 void check_folder(const ExportWork& work) {
   std::error_code ignored;
   if (fs::equivalent(work.run, work.output, ignored))
     throw ConfigError("export {}: --output {} is the run's own folder; choose another",
                       work.run.string(), work.output.string());
+  if (fs::exists(work.output, ignored) && !fs::is_empty(work.output, ignored) &&
+      !fs::exists(work.output / mark, ignored))
+    throw ConfigError(
+        "export {}: --output {} has files that no export made; choose a new or an empty folder",
+        work.run.string(), work.output.string());
+}
+
+void mark_folder(const ExportWork& work) {
+  create_folder(work.output);
+  write_text(work.output / mark, fmt::format("{{ \"gramloom\": \"{}\" }}\n", version()));
 }
 
 bool is_wanted(const ExportWork& work, const JobOnDisk& job) {
@@ -214,6 +231,14 @@ RunOnDisk read_results(const ExportWork& work) {
   } catch (const Error& error) {
     throw ConfigError("export {}: {}", work.run.string(), error.what());
   }
+}
+
+fs::path export_job(const ExportWork& work, const JobOnDisk& job) {
+  const fs::path stem = work.output / job.name;
+  create_folder(stem.parent_path());
+  const MaterialFiles files = files_of(work, job);
+  if (work.target == ExportTarget::materialx) return write_materialx(stem, files);
+  return write_gltf(stem, read_material(files), "gramloom " + std::string(version())).front();
 }
 
 }  // namespace
@@ -233,15 +258,14 @@ Exported export_run(const ExportWork& work) {
   if (finished.empty())
     throw ConfigError("export {}: none of {} job{} is finished, with its pictures there",
                       work.run.string(), wanted, wanted == 1 ? "" : "s");
+  mark_folder(work);
   Exported exported;
   for (const JobOnDisk* job : finished) {
-    const fs::path stem = work.output / job->name;
-    create_folder(stem.parent_path());
-    const MaterialFiles files = files_of(work, *job);
-    exported.documents.push_back(
-        work.target == ExportTarget::gltf
-            ? write_gltf(stem, read_material(files), "gramloom " + std::string(version())).front()
-            : write_materialx(stem, files));
+    try {
+      exported.documents.push_back(export_job(work, *job));
+    } catch (const Error& error) {
+      exported.failures.push_back(fmt::format("{}: {}", job->name, error.what()));
+    }
   }
   if (finished.size() < wanted)
     exported.notes.push_back(fmt::format("{} of {} jobs left out: they are not finished",

@@ -24,13 +24,16 @@ struct ExportWork {
 
 struct Exported {
   std::vector<std::filesystem::path> documents;
-  std::vector<std::string> notes;  // "pebbles/quilting/seed1: …": why a job is left out
+  std::vector<std::string> notes;  // what is left out, and why
+  std::vector<std::string>
+      failures;  // "pebbles/quilting/seed1: …": jobs that could not be exported
 };
 
 /// Exports each finished job of a run as a material: DIR/<exemplar>/<method>/seed1.gltf or .mtlx,
 /// and its pictures beside it. Maps count by their names: height, normal, roughness, metalness,
 /// occlusion, and usual other words for these. Throws ConfigError where the folder has no results
-/// to export or something would be written over; Error when a file cannot be read or written.
+/// to export or something would be written over. A job whose files cannot be read or written does
+/// not stop the others.
 Exported export_run(const ExportWork& work);
 
 }  // namespace gramloom

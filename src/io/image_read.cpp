@@ -238,6 +238,7 @@ ImageFile read_open(OIIO::ImageInput& input) {
 
 /// A library's message with the file's own name where it has the one that we gave.
 std::string with_name(std::string message, const std::string& from, const std::string& to) {
+  if (from.empty()) return message;  // it would be found everywhere
   for (std::size_t at = message.find(from); at != std::string::npos;
        at = message.find(from, at + to.size()))
     message.replace(at, from.size(), to);

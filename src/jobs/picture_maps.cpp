@@ -52,7 +52,7 @@ Start start_of(const MapWork& work, const Image& picture) {
     start.maps = material_from_photo(picture, work.photo);
     start.height = start.maps.at("height");
   } else if (work.source == MapSource::normal) {
-    start.height = height_from_normals(colours_to_normals(as_colours(picture), work.maps.green),
+    start.height = height_from_normals(colours_to_normals(picture, work.maps.green),
                                        work.maps.strength, work.tile);
     start.maps["height"] = start.height;
   } else {

@@ -40,7 +40,9 @@ void check_files(const TileWork& work) {
   for (const auto& [name, map] : work.maps) read.push_back({map.image, "is to be tiled"});
   const ProtectedFiles inputs(read);
   inputs.check(work.output);
-  for (const auto& [name, map] : work.maps) inputs.check(file_of(work, name));
+  // The maps' names are ours, not the user's: only files of an earlier tiling are replaced.
+  for (const auto& [name, map] : work.maps)
+    check_replaced(file_of(work, name), inputs, "gramloom:settings");
 }
 
 Metadata metadata_of(const TileWork& work) {

@@ -94,12 +94,12 @@ void make_unit(Image& picture, int first) {
 }
 
 Image colours_to_normals(const Image& picture, GreenAxis green) {
-  check_normal_map(picture);
+  const Image colours = as_colours(picture);
   const float up = green == GreenAxis::up ? 1.0f : -1.0f;
   Image normals(picture.size(), 3);
   for_each_row(picture.height, [&](int y) {
     for (int x = 0; x < picture.width; ++x) {
-      const float* colour = picture.at(x, y);
+      const float* colour = colours.at(x, y);
       store_unit(2 * colour[0] - 1, up * (2 * colour[1] - 1), 2 * colour[2] - 1, normals.at(x, y));
     }
   });

@@ -33,8 +33,9 @@ void make_unit(Image& picture, int first = 0);
 /// The same for one pixel's three channels.
 void make_unit(float* colour);
 
-/// The unit normals of such a picture: N = 2 RGB − 1, divided by its length; a vector of no length
-/// becomes (0, 0, 1). Channels beyond the third are left out. Throws Error for fewer than three.
+/// The unit normals of a normal map: N = 2 RGB − 1 of as_colours(), divided by its length; a vector
+/// of no length becomes (0, 0, 1). Channels beyond the third are left out. Throws Error for fewer
+/// than three.
 Image colours_to_normals(const Image& picture, GreenAxis green);
 
 }  // namespace gramloom

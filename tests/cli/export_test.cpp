@@ -103,5 +103,23 @@ TEST_F(ExportCommand, RefusesInOneLine) {
   EXPECT_FALSE(fs::exists(folder_ / "x"));
 }
 
+TEST_F(ExportCommand, FilesOfTheUserStayAndExportsAreReplaced) {
+  fs::create_directories(folder_ / "mine");
+  write_text(folder_ / "mine/notes.txt", "mine");
+  const Outcome refused = run({"export", "out/m", "--target", "gltf", "--output", "mine"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("has files that no export made"));
+  for (const auto* target : {"gltf", "materialx", "gltf"})
+    EXPECT_EQ(run({"export", "out/m", "--target", target, "--output", "x"}).exit_code, 0);
+}
+
+TEST_F(ExportCommand, ADamagedPictureDoesNotStopTheOthers) {
+  write_text(folder_ / "out/m/it's 100% #1/h/seed1.png", "no picture");
+  const Outcome outcome = run({"export", "out/m", "--target", "gltf", "--output", "x"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.errors, HasSubstr("it's 100% #1/h/seed1: "));
+  EXPECT_EQ(outcome.output, "x/" + job_ + ".gltf\n");
+}
+
 }  // namespace
 }  // namespace gramloom

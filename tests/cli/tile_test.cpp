@@ -6,6 +6,7 @@
 namespace gramloom {
 namespace {
 
+namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 class TileCommand : public Workspace {
@@ -48,6 +49,24 @@ TEST_F(TileCommand, MapsLieBesideItWithTheirOwnBits) {
   ASSERT_EQ(map.image.size(), (Size{130, 130}));
   for (int y = 0; y < 130; ++y)
     for (int x = 0; x < 130; ++x) ASSERT_NEAR(*map.image.at(x, y), 1 - *picture.at(x, y), 0.003f);
+}
+
+TEST_F(TileCommand, AFileOfTheUserIsNotTakenForAnOlderMap) {
+  write_image(folder_ / "floor_roughness.png", Image(8, 8, 1, 0.5f), {});
+  const std::string before = file("floor_roughness.png");
+  const std::vector<std::string> command{"tile",   "e.png", "--map",    "roughness=r.png",
+                                         "--size", "64",    "--output", "floor.png"};
+  EXPECT_EQ(run(command).exit_code, 2);
+  EXPECT_EQ(file("floor_roughness.png"), before);
+  fs::remove(folder_ / "floor_roughness.png");
+  EXPECT_EQ(run(command).exit_code, 0);
+  EXPECT_EQ(run(command).exit_code, 0);  // its own are replaced
+}
+
+TEST_F(TileCommand, AnEmptyNameIsAnError) {
+  const Outcome outcome = run({"tile", "", "--size", "64", "--output", "a.png"});
+  EXPECT_NE(outcome.exit_code, 0);
+  EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
 }
 
 TEST_F(TileCommand, MistakesAreOneLineAndExitCode2) {

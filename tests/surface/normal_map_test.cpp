@@ -59,5 +59,12 @@ TEST(NormalMap, AHeightHasOneChannel) {
   EXPECT_THROW(normals_from_height(Image({4, 4}, 3), 1, Tile::none), Error);
 }
 
+TEST(NormalMap, SignedComponentsAreReadAsSuch) {
+  const Image normals = normals_from_height(ramp({4, 4}), 1, Tile::none);
+  const Image back = colours_to_normals(normals, GreenAxis::up);
+  for (std::size_t i = 0; i < back.pixels.size(); ++i)
+    EXPECT_NEAR(back.pixels[i], normals.pixels[i], 1e-6);
+}
+
 }  // namespace
 }  // namespace gramloom
