@@ -53,7 +53,10 @@ class LevelsInput : public OIIO::ImageInput {
     m_spec.attribute("oiio:updirection", "y");
     return true;
   }
-  bool read_native_scanline(int, int level, int y, int, void* data) override {
+  bool read_native_scanline(int subimage, int level, int y, int, void* data) override {
+    // Other threads may have asked for another level meanwhile.
+    const lock_guard lock(*this);
+    if (!seek_subimage(subimage, level)) return false;
     const Image& image = at(level);
     std::memcpy(data, image.at(0, y),
                 sizeof(float) * static_cast<std::size_t>(image.width) *
@@ -120,6 +123,7 @@ class SystemLookup : public TextureLookup {
       OIIO::TextureSystem::destroy(system_);
       throw Error("a picture cannot be looked up: {}", why);
     }
+    read_all();
   }
   ~SystemLookup() override { OIIO::TextureSystem::destroy(system_); }
   SystemLookup(const SystemLookup&) = delete;
@@ -153,6 +157,23 @@ class SystemLookup : public TextureLookup {
   }
 
  private:
+  // Reads all levels, and the colours of an environment's poles, while there is one thread: what
+  // threads see while others still read a level depends on which comes first.
+  void read_all() const {
+    std::vector<float> texel(static_cast<std::size_t>(channels_));
+    for (int level = 0; level < static_cast<int>(levels_.size()); ++level) {
+      OIIO::TextureOpt options = options_;
+      system_->get_texels(handle_, nullptr, options, level, 0, 1, 0, 1, 0, 1, 0, channels_,
+                          OIIO::TypeFloat, texel.data());
+    }
+    if (channels_ != 3) return;
+    std::vector<Cone> cones;
+    for (float width = 2; width > 1e-5f; width /= 2)
+      for (const float y : {-1.0f, 1.0f}) cones.push_back({{0, y, 0}, width});
+    std::vector<Vec3> values(cones.size());
+    along(cones, values);
+  }
+
   int channels_;
   std::vector<Image> levels_;
   OIIO::TextureOpt options_;
