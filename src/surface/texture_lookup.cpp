@@ -53,10 +53,7 @@ class LevelsInput : public OIIO::ImageInput {
     m_spec.attribute("oiio:updirection", "y");
     return true;
   }
-  bool read_native_scanline(int subimage, int level, int y, int, void* data) override {
-    // Other threads may have asked for another level meanwhile.
-    const lock_guard lock(*this);
-    if (!seek_subimage(subimage, level)) return false;
+  bool read_native_scanline(int, int level, int y, int, void* data) override {
     const Image& image = at(level);
     std::memcpy(data, image.at(0, y),
                 sizeof(float) * static_cast<std::size_t>(image.width) *
@@ -157,8 +154,8 @@ class SystemLookup : public TextureLookup {
   }
 
  private:
-  // Reads all levels, and the colours of an environment's poles, while there is one thread: what
-  // threads see while others still read a level depends on which comes first.
+  // Reads all levels while there is one thread: what threads see while others still read a level
+  // depends on which comes first.
   void read_all() const {
     std::vector<float> texel(static_cast<std::size_t>(channels_));
     for (int level = 0; level < static_cast<int>(levels_.size()); ++level) {
@@ -166,12 +163,6 @@ class SystemLookup : public TextureLookup {
       system_->get_texels(handle_, nullptr, options, level, 0, 1, 0, 1, 0, 1, 0, channels_,
                           OIIO::TypeFloat, texel.data());
     }
-    if (channels_ != 3) return;
-    std::vector<Cone> cones;
-    for (float width = 2; width > 1e-5f; width /= 2)
-      for (const float y : {-1.0f, 1.0f}) cones.push_back({{0, y, 0}, width});
-    std::vector<Vec3> values(cones.size());
-    along(cones, values);
   }
 
   int channels_;
