@@ -14,11 +14,17 @@ void add_config_options(CLI::App& command, ConfigOptions& options) {
           "only jobs whose exemplar/method or exemplar/method/seedN matches: * stands for any "
           "letters, ? for one, all else for itself")
       ->type_name("GLOB");
-  command
-      .add_option("--set", options.set,
-                  "in place of what the config says: a top-level key, a parameter of every "
-                  "method that has it, method.NAME.key or exemplar.NAME.key")
-      ->type_name("KEY=VALUE")
+  add_repeated(command, "--set", options.set,
+               "in place of what the config says: a top-level key, a parameter of every method "
+               "that has it, method.NAME.key or exemplar.NAME.key",
+               "KEY=VALUE");
+}
+
+CLI::Option* add_repeated(CLI::App& command, const std::string& option,
+                          std::vector<std::string>& values, const std::string& meaning,
+                          const std::string& type) {
+  return command.add_option(option, values, meaning)
+      ->type_name(type)
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

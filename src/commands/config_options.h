@@ -5,7 +5,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace gramloom {
 
@@ -19,6 +20,11 @@ struct ConfigOptions {
 
 /// `options` must stay where it is until the command line is read.
 void add_config_options(CLI::App& command, ConfigOptions& options);
+
+/// An option that can be repeated, each time with one value; likewise.
+CLI::Option* add_repeated(CLI::App& command, const std::string& option,
+                          std::vector<std::string>& values, const std::string& meaning,
+                          const std::string& type);
 
 /// --threads; likewise.
 void add_threads(CLI::App& command, int& threads);

@@ -38,8 +38,8 @@ Command add_export(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "export", "Write the results of a run, with their maps, as materials for other programs");
   command->add_option("folder", arguments->run, "folder of a run")->required()->type_name("DIR");
-  detail::add_word(*command, "--target", arguments->work.target,
-                   "gltf: glTF 2.0, on a ball and a plane; materialx: a standard_surface")
+  add_word(*command, "--target", arguments->work.target,
+           "gltf: glTF 2.0, on a ball and a plane; materialx: a standard_surface")
       ->required();
   command->add_option("--output", arguments->output, "folder of the materials")
       ->required()

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,20 +15,9 @@ namespace gramloom {
 
 namespace detail {
 
-// What CLI11 says after the option's name; "" where every number is allowed.
-template <class T>
-CLI::Validator range_of(const Range& range) {
-  return {[range](const std::string& word) -> std::string {
-            double number = 0;
-            if (!CLI::detail::lexical_cast(word, number) || range.contains(number)) return "";
-            return fmt::format("{} is not {}", word, allowed_values<element_t<T>>(range));
-          },
-          ""};
-}
-
-template <NamedEnum E>
-CLI::Option* add_word(CLI::App& command, const std::string& option, E& value,
-                      const std::string& meaning) {
+template <NamedEnum E, class Value>
+CLI::Option* add_word_of(CLI::App& command, const std::string& option, Value& value,
+                         const std::string& meaning) {
   const std::vector<std::string> words(enum_names<E>.begin(), enum_names<E>.end());
   return command
       .add_option_function<std::string>(
@@ -38,6 +28,34 @@ CLI::Option* add_word(CLI::App& command, const std::string& option, E& value,
           meaning)
       ->check(CLI::IsMember(words))
       ->type_name("");
+}
+
+}  // namespace detail
+
+/// An option for one of an enum's words. `value` must stay where it is until the command line is
+/// read.
+template <NamedEnum E>
+CLI::Option* add_word(CLI::App& command, const std::string& option, E& value,
+                      const std::string& meaning) {
+  return detail::add_word_of<E>(command, option, value, meaning);
+}
+template <NamedEnum E>
+CLI::Option* add_word(CLI::App& command, const std::string& option, std::optional<E>& value,
+                      const std::string& meaning) {
+  return detail::add_word_of<E>(command, option, value, meaning);
+}
+
+namespace detail {
+
+// What CLI11 says after the option's name; "" where every number is allowed.
+template <class T>
+CLI::Validator range_of(const Range& range) {
+  return {[range](const std::string& word) -> std::string {
+            double number = 0;
+            if (!CLI::detail::lexical_cast(word, number) || range.contains(number)) return "";
+            return fmt::format("{} is not {}", word, allowed_values<element_t<T>>(range));
+          },
+          ""};
 }
 
 // "512", or "512,384": width and height.
@@ -88,8 +106,7 @@ std::vector<CLI::Option*> add_field_options(CLI::App& command, Params& params,
       const std::string off = value ? fmt::format(",!--no-{}", option.substr(2)) : "";
       added = command.add_flag(option + off, value, meaning);
     } else if constexpr (NamedEnum<T>) {
-      added =
-          detail::add_word(command, option, value, meaning + "; " + std::string(to_word(value)));
+      added = add_word(command, option, value, meaning + "; " + std::string(to_word(value)));
     } else if constexpr (std::is_same_v<T, Size>) {
       added = detail::add_size(command, option, value, field.range, meaning);
     } else if constexpr (std::is_base_of_v<std::filesystem::path, T>) {

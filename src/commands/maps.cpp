@@ -69,21 +69,11 @@ Command add_maps(CLI::App& program) {
               "the picture is a photograph: make its colours in even light, guess height and "
               "roughness, and print the lines of a config that use them")
           ->excludes(height);
-  detail::add_word(*maps, "--tile", work.tile, "axes on which the picture tiles");
+  add_word(*maps, "--tile", work.tile, "axes on which the picture tiles");
   maps->add_option("--output", arguments->output, "folder of the maps (the picture's)")
       ->type_name("DIR");
-  detail::add_word(*maps, "--format", work.format, "file type of the maps");
-  maps->add_option_function<std::string>(
-          "--pixel-type",
-          [&work](const std::string& word) {
-            const auto& words = enum_names<PixelType>;
-            work.pixel_type =
-                static_cast<PixelType>(std::find(words.begin(), words.end(), word) - words.begin());
-          },
-          "how the maps store a value (as the picture)")
-      ->check(CLI::IsMember(
-          std::vector<std::string>(enum_names<PixelType>.begin(), enum_names<PixelType>.end())))
-      ->type_name("");
+  add_word(*maps, "--format", work.format, "file type of the maps");
+  add_word(*maps, "--pixel-type", work.pixel_type, "how the maps store a value (as the picture)");
   add_threads(*maps, arguments->threads);
   add_field_options(*maps, work.maps, "Maps");
   for (CLI::Option* option : add_field_options(*maps, work.photo, "Of a photograph"))

@@ -49,19 +49,12 @@ Command add_preview(CLI::App& program) {
   preview->add_option("--output", arguments->output, "the picture to write")
       ->required()
       ->type_name("FILE");
-  preview
-      ->add_option("--map", arguments->work.maps,
-                   "a map of the first texture, its name and file: height, normal, roughness, "
-                   "metalness or occlusion")
-      ->type_name("NAME=FILE")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  preview->add_option("--set", arguments->work.set, "a parameter of the procedural textures")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_repeated(*preview, "--map", arguments->work.maps,
+               "a map of the first texture, its name and file: height, normal, roughness, "
+               "metalness or occlusion",
+               "NAME=FILE");
+  add_repeated(*preview, "--set", arguments->work.set, "a parameter of the procedural textures",
+               "KEY=VALUE");
   add_field_options(*preview, arguments->work.params, "The picture");
   add_threads(*preview, arguments->threads);
   preview->add_flag("--quiet", arguments->quiet, "show no progress");

@@ -105,33 +105,19 @@ Command add_tile(CLI::App& program) {
   command->add_option("--output", arguments->output, "the result (.png, .tif, .exr, .jpg …)")
       ->required()
       ->type_name("FILE");
-  command
-      ->add_option("--map", arguments->maps,
-                   "a map of the picture, tiled with it and written beside the result as "
-                   "FILE_NAME; can be repeated")
-      ->type_name("NAME=FILE")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_repeated(*command, "--map", arguments->maps,
+               "a map of the picture, tiled with it and written beside the result as FILE_NAME; "
+               "can be repeated",
+               "NAME=FILE");
   command
       ->add_option("--max-side", arguments->max_side,
                    "scale the picture's longer side down to this")
       ->check(CLI::Range(1, 65536))
       ->type_name("PIXELS");
   command->add_option("--seed", work.seed, "of the random numbers; 1")->type_name("N");
-  detail::add_word(*command, "--tile", work.tile, "edges of the result that meet; none");
-  command
-      ->add_option_function<std::string>(
-          "--pixel-type",
-          [&work](const std::string& word) {
-            const auto& words = enum_names<PixelType>;
-            work.pixel_type =
-                static_cast<PixelType>(std::find(words.begin(), words.end(), word) - words.begin());
-          },
-          "how the result stores a value (as the picture)")
-      ->check(CLI::IsMember(
-          std::vector<std::string>(enum_names<PixelType>.begin(), enum_names<PixelType>.end())))
-      ->type_name("");
+  add_word(*command, "--tile", work.tile, "edges of the result that meet; none");
+  add_word(*command, "--pixel-type", work.pixel_type,
+           "how the result stores a value (as the picture)");
   add_threads(*command, arguments->threads);
   command->add_flag("--quiet", arguments->quiet, "show no progress");
   add_field_options(*command, work.params, "Tiling");
