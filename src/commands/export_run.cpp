@@ -12,6 +12,7 @@
 #include "jobs/pattern.h"
 #include "report/preview.h"
 #include "runs/job_files.h"
+#include "runs/job_maps.h"
 #include "runs/run_folder.h"
 #include "surface/export/gltf.h"
 #include "surface/export/materialx.h"
@@ -33,22 +34,13 @@ struct MaterialFiles {
 };
 
 fs::path* member_of(MaterialFiles& files, const std::string& map) {
-  const auto is = [&](std::initializer_list<std::string_view> words) {
-    return std::ranges::find(words, std::string_view(map)) != words.end();
-  };
-  if (is({"normal", "normals", "nrm"})) return &files.normal;
-  if (is({"height", "displacement", "disp", "bump"})) return &files.height;
-  if (is({"roughness", "rough"})) return &files.roughness;
-  if (is({"metalness", "metallic", "metal"})) return &files.metalness;
-  if (is({"occlusion", "ao", "ambient_occlusion"})) return &files.occlusion;
+  const std::string known = material_map(map);
+  if (known == "normal") return &files.normal;
+  if (known == "height") return &files.height;
+  if (known == "roughness") return &files.roughness;
+  if (known == "metalness") return &files.metalness;
+  if (known == "occlusion") return &files.occlusion;
   return nullptr;
-}
-
-// "seed1_height.png" of the job "…/seed1" is its map "height".
-std::string map_of(const std::string& job, const std::string& file) {
-  const std::string stem = fs::path(file).stem().string();
-  const std::string own = fs::path(job).filename().string() + "_";
-  return stem.starts_with(own) ? stem.substr(own.size()) : "";
 }
 
 Json settings_of(const JobRecord& record, const char* key) {
@@ -79,23 +71,15 @@ double strength_of(const JobRecord& record) {
                              : MapParams().strength;
 }
 
-Tile tile_of(const JobRecord& record) {
-  const std::string word =
-      record.settings.is_object() ? record.settings.value("tile", "none") : "none";
-  constexpr auto names = enum_names<Tile>;
-  const auto found = std::ranges::find(names, word);
-  return found == names.end() ? Tile::none : static_cast<Tile>(found - names.begin());
-}
-
 MaterialFiles files_of(const ExportWork& work, const JobOnDisk& job) {
   MaterialFiles files;
   files.name = job.name;
-  files.tile = tile_of(job.record);
+  files.tile = tile_of(job.record.settings);
   files.strength = work.strength > 0 ? work.strength : strength_of(job.record);
   const fs::path folder = (work.run / job.name).parent_path();
   for (const std::string& file : job.record.files) {
     if (fs::path(file).filename() != file) throw Error("{} is elsewhere", file);
-    const std::string map = map_of(job.name, file);
+    const std::string map = map_of_file(job.name, file);
     if (file == job.record.files.front()) {
       files.colour = folder / file;
     } else if (fs::path* member = member_of(files, map); member && member->empty()) {
@@ -184,7 +168,7 @@ fs::path write_materialx(const fs::path& stem, const MaterialFiles& files) {
   };
   if (!files.normal.empty()) {
     const Image picture = read_image(files.normal).image;
-    if (files.green == GreenAxis::up && picture == as_colours(picture))
+    if (files.green == GreenAxis::up && !is_signed(picture))
       maps.normal = copy(files.normal);
     else
       write_normals(colours_to_normals(picture, files.green));

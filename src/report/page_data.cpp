@@ -10,6 +10,7 @@
 #include "metrics/map_scores.h"
 #include "report/preview.h"
 #include "report/surface_view.h"
+#include "runs/job_maps.h"
 
 namespace gramloom {
 
@@ -119,17 +120,10 @@ ShownExemplar read_source(const RunOnDisk& run, const std::string& name, Json& t
   return source;
 }
 
-Tile tile_of(const Json& settings) {
-  constexpr auto names = enum_names<Tile>;
-  const auto found = std::ranges::find(names, settings.value("tile", "none"));
-  return found == names.end() ? Tile::none : static_cast<Tile>(found - names.begin());
-}
-
-// "seed1_height.png" of the job "…/seed1" is its map "height".
+// What the page calls a job's file.
 std::string label_of(const std::string& job, const std::string& file) {
-  const std::string stem = fs::path(file).stem().string();
-  const std::string own = fs::path(job).filename().string() + "_";
-  return stem.starts_with(own) ? stem.substr(own.size()) : "picture";
+  const std::string map = map_of_file(job, file);
+  return map.empty() ? "picture" : map;
 }
 
 Json pictures_of(const RunOnDisk& run, const JobOnDisk& job, const ShownExemplar& source,

@@ -4,11 +4,12 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "io/image_encode.h"
 #include "io/field_values.h"
+#include "io/image_encode.h"
 #include "io/json_text.h"
 #include "io/text_file.h"
 #include "report/preview.h"
+#include "runs/job_maps.h"
 #include "signal/resize.h"
 
 namespace gramloom {
@@ -108,14 +109,8 @@ Json maps_of(const fs::path& folder, const SurfaceView& view, double& strength) 
 }  // namespace
 
 std::string surface_map_of(const std::string& label) {
-  const auto is = [&](std::initializer_list<std::string_view> words) {
-    return std::ranges::find(words, std::string_view(label)) != words.end();
-  };
-  if (is({"normal", "normals", "nrm"})) return "normal";
-  if (is({"height", "displacement", "disp", "bump"})) return "height";
-  if (is({"roughness", "rough"})) return "roughness";
-  if (is({"occlusion", "ao", "ambient_occlusion"})) return "occlusion";
-  return "";
+  const std::string map = material_map(label);
+  return map == "metalness" ? "" : map;
 }
 
 std::string surface_view_file(const fs::path& folder, const std::string& name,
