@@ -72,12 +72,15 @@ Image normals_to_colours(const Image& normals, GreenAxis green) {
   return picture;
 }
 
+bool is_signed(const Image& normal_map) {
+  return std::ranges::any_of(normal_map.pixels, [](float v) { return v < 0; });
+}
+
 Image as_colours(const Image& normal_map) {
   check_normal_map(normal_map);
   Image picture = normal_map;
-  if (std::none_of(picture.pixels.begin(), picture.pixels.end(), [](float v) { return v < 0; }))
-    return picture;
-  for (float& value : picture.pixels) value = (value + 1) / 2;
+  if (is_signed(normal_map))
+    for (float& value : picture.pixels) value = (value + 1) / 2;
   return picture;
 }
 
@@ -94,13 +97,16 @@ void make_unit(Image& picture, int first) {
 }
 
 Image colours_to_normals(const Image& picture, GreenAxis green) {
-  const Image colours = as_colours(picture);
+  check_normal_map(picture);
+  const bool components = is_signed(picture);
+  const auto component = [components](float v) { return 2 * (components ? (v + 1) / 2 : v) - 1; };
   const float up = green == GreenAxis::up ? 1.0f : -1.0f;
   Image normals(picture.size(), 3);
   for_each_row(picture.height, [&](int y) {
     for (int x = 0; x < picture.width; ++x) {
-      const float* colour = colours.at(x, y);
-      store_unit(2 * colour[0] - 1, up * (2 * colour[1] - 1), 2 * colour[2] - 1, normals.at(x, y));
+      const float* colour = picture.at(x, y);
+      store_unit(component(colour[0]), up * component(colour[1]), component(colour[2]),
+                 normals.at(x, y));
     }
   });
   return normals;

@@ -22,9 +22,11 @@ Image normals_from_height(const Image& height, double strength, Tile wraps);
 /// The picture of unit normals, RGB = (N + 1) / 2, so that 8 bits hold 255 (N + 1) / 2.
 Image normals_to_colours(const Image& normals, GreenAxis green);
 
-/// A normal map as such a picture, whatever its file holds: components of [−1, 1] as they are (some
-/// write them so in floats, and then one is negative) become (component + 1) / 2. Throws Error for
-/// fewer than three channels.
+/// Whether a normal map's file holds components of [−1, 1] as they are: then one is negative.
+bool is_signed(const Image& normal_map);
+
+/// A normal map as such a picture, whatever its file holds: signed components (some write them so
+/// in floats) become (component + 1) / 2. Throws Error for fewer than three channels.
 Image as_colours(const Image& normal_map);
 
 /// Brings the normals in channels first to first + 2 of a picture to unit length, as colours; those

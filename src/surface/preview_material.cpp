@@ -35,13 +35,13 @@ const Image* find(const PreviewMaterial& material, const std::string& name) {
   return at == material.maps.end() ? nullptr : &at->second;
 }
 
+}  // namespace
+
 Size size_of(const PreviewMaterial& material) {
   if (!material.colour.empty()) return material.colour.size();
   if (!material.maps.empty()) return material.maps.begin()->second.size();
   return {1, 1};
 }
-
-}  // namespace
 
 Vec3 linear_colour(const std::vector<double>& c) {
   return {linear_from_srgb(static_cast<float>(c[0])), linear_from_srgb(static_cast<float>(c[1])),

@@ -49,6 +49,9 @@ class MaterialLookup {
   std::unique_ptr<TextureLookup> lookup_, height_;
 };
 
+/// Of a material's pictures; one pixel where it has none.
+Size size_of(const PreviewMaterial& material);
+
 /// Throws Error for maps of different sizes or channels that they cannot have.
 void check_material(const PreviewMaterial& material);
 

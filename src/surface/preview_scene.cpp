@@ -29,11 +29,6 @@ Mesh with_normals(Mesh mesh, Normals normals) {
   return mesh;
 }
 
-Size size_of(const PreviewMaterial& m) {
-  if (!m.colour.empty()) return m.colour.size();
-  return m.maps.empty() ? Size{1, 1} : m.maps.begin()->second.size();
-}
-
 void check_solid(const PreviewParams& params, const PreviewMaterial& material) {
   const bool is_solid = material.solid || !material.volume.slices.empty();
   if (params.mapping == Mapping::solid && !is_solid)

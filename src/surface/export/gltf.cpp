@@ -21,8 +21,6 @@ constexpr int vertices = 34962, indices = 34963;
 constexpr int linear = 9729, linear_mipmap_linear = 9987;
 constexpr int repeat = 10497, mirrored_repeat = 33648;
 
-constexpr float usual_roughness = 0.8f;
-
 fs::path with_suffix(const fs::path& stem, const std::string& suffix) {
   fs::path file = stem;
   file += suffix;
@@ -112,7 +110,7 @@ Image packed_maps(const MaterialSet& material) {
   };
   for (std::size_t i = 0; 3 * i < packed.pixels.size(); ++i) {
     packed.pixels[3 * i] = value(material.occlusion, i, 1);
-    packed.pixels[3 * i + 1] = value(material.roughness, i, usual_roughness);
+    packed.pixels[3 * i + 1] = value(material.roughness, i, static_cast<float>(usual_roughness));
     packed.pixels[3 * i + 2] = value(material.metalness, i, 0);
   }
   return packed;
@@ -135,7 +133,7 @@ Json material_json(const fs::path& stem, const MaterialSet& material, Pictures& 
     if (material.occlusion) json["occlusionTexture"] = {{"index", packed}};
   } else {
     surface["metallicFactor"] = 0;
-    surface["roughnessFactor"] = 0.8;
+    surface["roughnessFactor"] = usual_roughness;
   }
   json["pbrMetallicRoughness"] = surface;
   if (const auto normals = normals_of(material))

@@ -8,6 +8,9 @@
 
 namespace gramloom {
 
+/// The roughness of a material that has no map of it.
+inline constexpr double usual_roughness = 0.8;
+
 /// A material as pictures of one size, in values that do not depend on files.
 struct MaterialSet {
   std::string name;             // "pebbles/quilting/seed1"

@@ -5,6 +5,8 @@
 #include <pugixml.hpp>
 #include <sstream>
 
+#include "surface/export/material_set.h"
+
 namespace gramloom {
 
 namespace {
@@ -101,7 +103,7 @@ std::string materialx_document(const MaterialXMaps& maps) {
   set_value(surface, "base", "float", "1");
   connect(surface, "base_color", "color3", graph, "base_color");
   if (maps.roughness.empty())
-    set_value(surface, "specular_roughness", "float", "0.8");
+    set_value(surface, "specular_roughness", "float", fmt::format("{}", usual_roughness));
   else
     connect(surface, "specular_roughness", "float", graph, "roughness");
   if (!maps.metalness.empty()) connect(surface, "metalness", "float", graph, "metalness");
