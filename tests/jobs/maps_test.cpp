@@ -69,6 +69,16 @@ class Maps : public Runner {
     }
     return "";
   }
+
+  // What is said of `maps = …`, without the folder.
+  std::string refusal_of_maps(const std::string& maps) const {
+    std::string line = refusal("[[exemplar]]\nname = 'e'\nimage = 'e.png'\nmaps = " + maps +
+                               "\n[[method]]\nname = 'b'\nkind = 'quilting'\n");
+    const std::string folder = folder_.string() + "/";
+    for (auto at = line.find(folder); at != std::string::npos; at = line.find(folder))
+      line.erase(at, folder.size());
+    return line;
+  }
 };
 
 TEST_F(Maps, StayRegisteredAndKeepTheirFilesEncoding) {
@@ -146,40 +156,25 @@ TEST_F(Maps, OfAnotherSizeAreRefusedInOneLineThatNamesBoth) {
 }
 
 TEST_F(Maps, MistakesInTheTableAreFoundWithTheirPlace) {
-  const auto with = [&](const std::string& maps) {
-    std::string line = refusal("[[exemplar]]\nname = 'e'\nimage = 'e.png'\nmaps = " + maps +
-                               "\n[[method]]\nname = 'b'\nkind = 'quilting'\n");
-    const std::string folder = folder_.string() + "/";
-    for (auto at = line.find(folder); at != std::string::npos; at = line.find(folder))
-      line.erase(at, folder.size());
-    return line;
-  };
-  EXPECT_EQ(with("{ height = 'no.png' }"), "c.toml:4:10: there is no file no.png");
-  EXPECT_EQ(with("{ height = 3 }"),
+  EXPECT_EQ(refusal_of_maps("{ height = 'no.png' }"), "c.toml:4:10: there is no file no.png");
+  EXPECT_EQ(refusal_of_maps("{ height = 3 }"),
             "c.toml:4:10: 'height' is a whole number, allowed is a file, or a table of image, "
             "kind, green");
-  EXPECT_EQ(with("{ height = '' }"), "c.toml:4:1: the map 'height' has no file");
-  EXPECT_EQ(with("{ 'a/b' = 'h.png' }"), "c.toml:4:1: name 'a/b' is not fit for a file name");
-  EXPECT_EQ(with("{ '' = 'h.png' }"), "c.toml:4:1: a name is empty");
-  EXPECT_EQ(with("'h.png'"),
+  EXPECT_EQ(refusal_of_maps("{ height = '' }"), "c.toml:4:1: the map 'height' has no file");
+  EXPECT_EQ(refusal_of_maps("{ 'a/b' = 'h.png' }"),
+            "c.toml:4:1: name 'a/b' is not fit for a file name");
+  EXPECT_EQ(refusal_of_maps("{ '' = 'h.png' }"), "c.toml:4:1: a name is empty");
+  EXPECT_EQ(refusal_of_maps("'h.png'"),
             "c.toml:4:1: 'maps' is a text, allowed is a table of files: { name = \"file.png\" }");
 }
 
 TEST_F(Maps, OfNormalsMayBeTablesAndMistakesThereHaveTheirPlace) {
-  const auto with = [&](const std::string& maps) {
-    std::string line = refusal("[[exemplar]]\nname = 'e'\nimage = 'e.png'\nmaps = " + maps +
-                               "\n[[method]]\nname = 'b'\nkind = 'quilting'\n");
-    const std::string folder = folder_.string() + "/";
-    for (auto at = line.find(folder); at != std::string::npos; at = line.find(folder))
-      line.erase(at, folder.size());
-    return line;
-  };
-  EXPECT_EQ(with("{ n = { image = 'h.png', kind = 'normals' } }"),
+  EXPECT_EQ(refusal_of_maps("{ n = { image = 'h.png', kind = 'normals' } }"),
             "c.toml:4:33: unknown kind 'normals' (did you mean 'normal'?)");
-  EXPECT_EQ(with("{ n = { image = 'h.png', gren = 'up' } }"),
+  EXPECT_EQ(refusal_of_maps("{ n = { image = 'h.png', gren = 'up' } }"),
             "c.toml:4:33: unknown key 'gren' (did you mean 'green'?)");
-  EXPECT_EQ(with("{ n = { kind = 'normal' } }"), "c.toml:4:14: key 'image' is missing");
-  EXPECT_EQ(with("{ n = { image = 'h.png', kind = 'normal' } }"),
+  EXPECT_EQ(refusal_of_maps("{ n = { kind = 'normal' } }"), "c.toml:4:14: key 'image' is missing");
+  EXPECT_EQ(refusal_of_maps("{ n = { image = 'h.png', kind = 'normal' } }"),
             "c.toml:1:1: the map h.png has 1 channels: kind = \"normal\" needs 3");
   const Config config = parse_config(
       "[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"

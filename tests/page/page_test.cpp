@@ -1,14 +1,11 @@
 // The page of a real run in a real browser: skipped where there is no Chromium.
 #include <gmock/gmock.h>
 
-#include <cstdlib>
-#include <memory>
-
 #include "cli/process.h"
 #include "core/random.h"
 #include "io/image_file.h"
 #include "io/text_file.h"
-#include "page/chromium.h"
+#include "page/run_in_browser.h"
 
 namespace gramloom {
 namespace {
@@ -17,9 +14,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-constexpr Size desk{1280, 900};
-constexpr Size phone{390, 844};
 
 // Names that trip over quoting, addresses, HTML and JSON.
 const std::string odd_name = "it's 100% #1 & ünï 砂";
@@ -52,15 +46,11 @@ std::string config_text() {
          "[[method]]\nname = 'stone'\nkind = 'procedural'\ntexture = 'pebbles'\n";
 }
 
-class Page : public testing::Test {
+class Page : public RunInBrowser {
  protected:
   // One run and one browser for all tests.
   static void SetUpTestSuite() {
-    const auto program = Chromium::find();
-    if (!program) return;
-    folder_ = fs::temp_directory_path() / fmt::format("gramloom_page_{}", getpid());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+    if (!make_folder("gramloom_page")) return;
     write_exemplar(folder_ / "e.png", 1);
     write_exemplar(folder_ / "f.png", 2);
     fs::create_directories((folder_ / broken_path).parent_path());
@@ -68,37 +58,19 @@ class Page : public testing::Test {
     write_text(folder_ / "c.toml", config_text());
     const Outcome outcome = gramloom(folder_, {"run", "c.toml", "--quiet"});
     ASSERT_EQ(outcome.exit_code, 1) << "the broken exemplar's jobs fail: " << outcome.errors;
-    browser_ = std::make_unique<Chromium>(*program);
-  }
-  static void TearDownTestSuite() {
-    browser_.reset();
-    if (!folder_.empty()) fs::remove_all(folder_);
-  }
-  void SetUp() override {
-    if (!browser_) GTEST_SKIP() << "no Chromium on this machine (Debian: apt install chromium)";
+    start_browser();
   }
 
   static void open(Size window = desk, bool dark = false, const std::string& run = "out/c") {
     browser_->open(folder_ / run / "index.html", window, dark);
   }
-  static Json js(const std::string& expression) { return browser_->evaluate(expression); }
   static std::string text(const std::string& selector) {
     return js("((e) => e.innerText ?? e.textContent)(document.querySelector(`" + selector + "`))");
   }
   static void click(const std::string& selector) {
     js("document.querySelector(`" + selector + "`).click()");
   }
-  // Opens the picture of a job.
-  static void enlarge(const std::string& job) {
-    js("[...document.querySelectorAll('#rows button')].find((b) => b.dataset.id === " +
-       Json(job).dump() + ").click()");
-  }
   static void wait() { js("new Promise((done) => setTimeout(done, 100))"); }
-  // A picture to look at, where the environment says where to.
-  static void keep(const std::string& name) {
-    if (const char* where = std::getenv("GRAMLOOM_SCREENSHOTS"))
-      browser_->screenshot(fs::path(where) / (name + ".png"));
-  }
   // Loads every picture, and counts those that show nothing.
   static int pictures_missing() {
     return js(
@@ -106,12 +78,7 @@ class Page : public testing::Test {
         "  return image.decode().then(() => 0, () => 1); }))"
         ".then((failed) => failed.reduce((a, b) => a + b, 0))");
   }
-
-  static fs::path folder_;
-  static std::unique_ptr<Chromium> browser_;
 };
-fs::path Page::folder_;
-std::unique_ptr<Chromium> Page::browser_;
 
 TEST_F(Page, LoadsWithoutAWordOnTheConsoleAndWithEveryPicture) {
   for (const bool dark : {false, true})

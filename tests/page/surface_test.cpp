@@ -2,13 +2,11 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <memory>
 
 #include "cli/process.h"
 #include "io/image_file.h"
 #include "io/text_file.h"
-#include "page/chromium.h"
+#include "page/run_in_browser.h"
 
 namespace gramloom {
 namespace {
@@ -17,9 +15,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-constexpr Size desk{1280, 900};
-constexpr Size phone{390, 844};
 
 // Humps in a grid, darker in between, with their height and maps told by it.
 void write_humps(const fs::path& folder) {
@@ -40,14 +35,10 @@ void write_humps(const fs::path& folder) {
   write_image(folder / "r.png", roughness, {});
 }
 
-class SurfacePage : public testing::Test {
+class SurfacePage : public RunInBrowser {
  protected:
   static void SetUpTestSuite() {
-    const auto program = Chromium::find();
-    if (!program) return;
-    folder_ = fs::temp_directory_path() / fmt::format("gramloom_surface_page_{}", getpid());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+    if (!make_folder("gramloom_surface_page")) return;
     write_humps(folder_);
     write_text(folder_ / "c.toml",
                "size = [64, 64]\ntile = 'both'\nscores = false\n"
@@ -57,17 +48,9 @@ class SurfacePage : public testing::Test {
                "[[method]]\nname = 'q'\nkind = 'quilting'\npatch_size = 24\n");
     const Outcome outcome = gramloom(folder_, {"run", "c.toml", "--quiet"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
-    browser_ = std::make_unique<Chromium>(*program);
-  }
-  static void TearDownTestSuite() {
-    browser_.reset();
-    if (!folder_.empty()) fs::remove_all(folder_);
-  }
-  void SetUp() override {
-    if (!browser_) GTEST_SKIP() << "no Chromium on this machine (Debian: apt install chromium)";
+    start_browser();
   }
 
-  static Json js(const std::string& expression) { return browser_->evaluate(expression); }
   // But for the driver's remarks on how long reading pixels takes.
   static std::vector<std::string> problems() {
     std::vector<std::string> found = browser_->problems();
@@ -76,15 +59,10 @@ class SurfacePage : public testing::Test {
     });
     return found;
   }
-  static void keep(const std::string& name) {
-    if (const char* where = std::getenv("GRAMLOOM_SCREENSHOTS"))
-      browser_->screenshot(fs::path(where) / (name + ".png"));
-  }
   // Opens the result of an exemplar.
   static void enlarge(const std::string& exemplar, Size window = desk, bool dark = false) {
     browser_->open(folder_ / "out/c/index.html", window, dark);
-    js("[...document.querySelectorAll('#rows button')].find((b) => b.dataset.id === " +
-       Json(exemplar + "/q/seed1").dump() + ").click()");
+    RunInBrowser::enlarge(exemplar + "/q/seed1");
   }
   // Until it is drawn, and once more after what was just done.
   static void drawn() {
@@ -117,12 +95,7 @@ class SurfacePage : public testing::Test {
   static void toggle(const std::string& map) {
     js("document.querySelector('[data-map=" + map + "]').click()");
   }
-
-  static fs::path folder_;
-  static std::unique_ptr<Chromium> browser_;
 };
-fs::path SurfacePage::folder_;
-std::unique_ptr<Chromium> SurfacePage::browser_;
 
 TEST_F(SurfacePage, WhatIsDrawnChangesWithTheLightTheTurnAndEachMap) {
   for (const std::string shape : {"b", "w"}) {
