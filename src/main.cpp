@@ -38,7 +38,8 @@ ExitCode dispatch(int argc, char** argv) {
                                       add_maps(app),
                                       add_preview(app),
                                       add_tile(app),
-                                      add_export(app)};
+                                      add_export(app),
+                                      add_benchmark(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {

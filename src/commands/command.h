@@ -29,6 +29,7 @@ Command add_maps(CLI::App& program);
 Command add_preview(CLI::App& program);
 Command add_tile(CLI::App& program);
 Command add_export(CLI::App& program);
+Command add_benchmark(CLI::App& program);
 
 /// Writes to standard output. A reader who has gone away is no mistake of ours; else throws Error.
 ExitCode print(const std::string& text);

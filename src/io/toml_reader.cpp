@@ -209,4 +209,13 @@ std::string required_text(const toml::table& table, std::string_view key) {
   return text;
 }
 
+fs::path required_folder(const toml::table& table, std::string_view key) {
+  const std::string text = required_text(table, key);
+  const toml::source_region& region = key_region(table, key);
+  const fs::path folder = (folder_of(region) / text).lexically_normal();
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) fail(region, "there is no folder {}", folder.string());
+  return folder;
+}
+
 }  // namespace gramloom

@@ -135,6 +135,10 @@ void read_fields(Params& params, const toml::table& table) {
 /// The text under `key`, which must be there and not empty.
 std::string required_text(const toml::table& table, std::string_view key);
 
+/// The folder under `key`, which must be there; relative to the config's, or of --set to the
+/// current one.
+std::filesystem::path required_folder(const toml::table& table, std::string_view key);
+
 namespace detail {
 
 template <class Files>

@@ -5,6 +5,7 @@
 
 #include "io/text_file.h"
 #include "io/toml_reader.h"
+#include "jobs/exemplar_folder.h"
 #include "jobs/method_reader.h"
 #include "jobs/names.h"
 #include "jobs/overrides.h"
@@ -32,12 +33,15 @@ bool is_file_of_run(const std::string& name) {
   fail(region, "the name '{}' is taken by a file of the run's own: choose another", name);
 }
 
-std::string read_name(const toml::table& table, NamesInUse& names) {
-  const std::string name = required_text(table, "name");
-  const toml::source_region& region = key_region(table, "name");
+void check_new_name(const std::string& name, NamesInUse& names, const toml::source_region& region) {
   check_name(name, longest_file_name, region);
   names.add(name, region);
-  return name;
+}
+
+void check_exemplar_name(const std::string& name, NamesInUse& names,
+                         const toml::source_region& region) {
+  check_new_name(name, names, region);
+  if (is_file_of_run(name)) fail_taken(name, region);
 }
 
 void check_maps(const NamedFiles<MapFile>& maps, const toml::source_region& region) {
@@ -49,19 +53,54 @@ void check_maps(const NamedFiles<MapFile>& maps, const toml::source_region& regi
   }
 }
 
+ExemplarEntry read_exemplar(const toml::table& table, NamesInUse& names) {
+  ExemplarEntry exemplar;
+  exemplar.name = required_text(table, "name");
+  check_exemplar_name(exemplar.name, names, key_region(table, "name"));
+  exemplar.place = place(table.source());
+  required_text(table, "image");
+  read_fields(exemplar, table);
+  check_maps(exemplar.maps, key_region(table, "maps"));
+  return exemplar;
+}
+
+// An exemplar for each picture in a folder, called like its file.
+std::vector<ExemplarEntry> read_exemplar_folder(const toml::table& table, NamesInUse& names) {
+  const toml::source_region& region = key_region(table, "folder");
+  for (const char* key : {"image", "maps"})
+    if (table.contains(key))
+      fail(key_region(table, key), "'{}' is of one picture: leave it or 'folder' out", key);
+  required_text(table, "name");  // for --set exemplar.NAME.folder=...
+  const fs::path folder = required_folder(table, "folder");
+  std::vector<fs::path> pictures;
+  try {
+    pictures = pictures_in(folder);
+  } catch (const Error& error) {
+    fail(region, "{}", error.what());
+  }
+  if (pictures.empty()) fail(region, "there is no picture in {}", folder.string());
+  ExemplarEntry exemplar;
+  exemplar.place = place(table.source());
+  read_fields_if(exemplar, table, [](std::string_view key) { return key == "max_side"; });
+  std::vector<ExemplarEntry> exemplars;
+  for (const fs::path& picture : pictures) {
+    exemplar.name = picture.stem().string();
+    exemplar.image = picture;
+    check_exemplar_name(exemplar.name, names, region);
+    exemplars.push_back(exemplar);
+  }
+  return exemplars;
+}
+
 std::vector<ExemplarEntry> read_exemplars(toml::table& config) {
   std::vector<ExemplarEntry> exemplars;
   NamesInUse names;
   for (const toml::table* table : section(config, "exemplar")) {
-    check_keys(*table, key_names<ExemplarEntry>({"name"}));
-    ExemplarEntry exemplar;
-    exemplar.name = read_name(*table, names);
-    if (is_file_of_run(exemplar.name)) fail_taken(exemplar.name, key_region(*table, "name"));
-    exemplar.place = place(table->source());
-    required_text(*table, "image");
-    read_fields(exemplar, *table);
-    check_maps(exemplar.maps, key_region(*table, "maps"));
-    exemplars.push_back(std::move(exemplar));
+    check_keys(*table, key_names<ExemplarEntry>({"name", "folder"}));
+    if (table->contains("folder"))
+      std::ranges::move(read_exemplar_folder(*table, names), std::back_inserter(exemplars));
+    else
+      exemplars.push_back(read_exemplar(*table, names));
   }
   return exemplars;
 }
@@ -72,7 +111,8 @@ std::vector<MethodEntry> read_methods(toml::table& config) {
   for (const toml::table* table : section(config, "method")) {
     MethodEntry method;
     method.method = read_method(*table);
-    method.name = read_name(*table, names);
+    method.name = required_text(*table, "name");
+    check_new_name(method.name, names, key_region(*table, "name"));
     if (is_file_of_exemplar(method.name)) fail_taken(method.name, key_region(*table, "name"));
     method.place = place(table->source());
     methods.push_back(std::move(method));

@@ -24,7 +24,8 @@ template <>
 inline constexpr auto enum_names<FileFormat> =
     std::to_array<std::string_view>({"automatic", "png", "tif", "exr", "jpg"});
 
-/// A picture that textures are made from: an [[exemplar]] of the config.
+/// A picture that textures are made from: an [[exemplar]] of the config. One with a `folder` stands
+/// for all pictures in it (exemplar_folder.h): as many entries, called like their files.
 struct ExemplarEntry {
   std::string name;  // fit for a folder's name
   std::filesystem::path image;

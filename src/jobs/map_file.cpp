@@ -45,6 +45,7 @@ constexpr auto scalar_words = std::to_array<std::string_view>(
      "metallic", "occlusion", "ao", "cavity", "curvature", "orm", "arm", "rma", "mra"});
 constexpr auto down_words = std::to_array<std::string_view>({"dx", "directx"});
 
+// Such a map of that many channels.
 std::optional<MapKind> kind_of_name(const std::string& name, int channels) {
   if (has_word(name, normal_words) && channels >= 3) return MapKind::normal;
   if (has_word(name, alpha_words) && channels == 1) return MapKind::alpha;
@@ -66,6 +67,12 @@ bool are_unit_vectors(const Image& map) {
 }
 
 }  // namespace
+
+std::optional<MapKind> usual_map(const std::string& name) {
+  if (has_word(name, normal_words)) return MapKind::normal;
+  if (has_word(name, alpha_words)) return MapKind::alpha;
+  return kind_of_name(name, 0);
+}
 
 MapKind kind_of_map(const std::string& map, const MapFile& file, const Image& values) {
   if (file.kind) return *file.kind;

@@ -34,6 +34,10 @@ struct MapFile {
   }
 };
 
+/// What the values of a map called so are, where it is a usual name for one: "height", "normal",
+/// "mask", "albedo".
+std::optional<MapKind> usual_map(const std::string& name);
+
 /// What the values of a map are, told by its name, else by its file's ("wall_normal.png",
 /// "Bricks_NormalDX.png"), else by its values: three channels that are unit vectors nearly
 /// everywhere are normals, other three are colours, and all else is scalars. The config's word

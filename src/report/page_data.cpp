@@ -10,6 +10,7 @@
 #include "metrics/map_scores.h"
 #include "report/preview.h"
 #include "report/surface_view.h"
+#include "runs/job_files.h"
 #include "runs/job_maps.h"
 
 namespace gramloom {
@@ -45,18 +46,6 @@ Json metrics_to_json(std::span<const Metric> all) {
   return list;
 }
 
-// The exemplar as the methods saw it: the run keeps it as exemplar.<its format> and its maps as
-// exemplar_<map>.<its format>: "exemplar", "exemplar_height".
-std::string exemplar_file(const fs::path& folder, const std::string& name,
-                          const std::string& stem) {
-  std::error_code ignored;
-  for (const auto* extension : {".png", ".exr", ".tif"})
-    if (const std::string file = fmt::format("{}/{}{}", name, stem, extension);
-        fs::is_regular_file(folder / file, ignored))
-      return file;
-  return "";
-}
-
 // What the config says of the exemplar; its paths are relative to the config.
 Json exemplar_in_config(const RunRecord& run, const std::string& name) {
   if (!run.settings.is_object()) return Json::object();
@@ -69,7 +58,7 @@ Json exemplar_in_config(const RunRecord& run, const std::string& name) {
 void read_maps(const RunOnDisk& run, const std::string& name, ShownExemplar& source,
                Json& trouble) {
   for (const auto& [map, path] : source.shown["maps"].items()) {
-    const std::string file = exemplar_file(run.folder, name, "exemplar_" + map);
+    const std::string file = kept_exemplar(run.folder, name, map);
     if (file.empty()) continue;
     try {
       const double white = white_of(read_image(run.folder / file));
@@ -88,7 +77,7 @@ Json exemplar_view(const RunOnDisk& run, const std::string& name, const std::str
   SurfaceView view{{{"colour", picture}}, source.white};
   for (const auto& [map, path] : source.shown["maps"].items()) {
     const std::string known = surface_map_of(map);
-    const std::string file = exemplar_file(run.folder, name, "exemplar_" + map);
+    const std::string file = kept_exemplar(run.folder, name, map);
     if (known.empty() || file.empty() || !view.files.emplace(known, file).second) continue;
     if (known == "normal" && path.is_object()) view.green_down = path.value("green", "") == "down";
   }
@@ -105,7 +94,7 @@ ShownExemplar read_source(const RunOnDisk& run, const std::string& name, Json& t
                   {"maps", config.value("maps", Json::object())},
                   {"map_pictures", Json::array()}};
   read_maps(run, name, source, trouble);
-  const std::string file = exemplar_file(run.folder, name, "exemplar");
+  const std::string file = kept_exemplar(run.folder, name);
   if (file.empty()) return source;
   try {
     const ImageFile exemplar = read_image(run.folder / file);

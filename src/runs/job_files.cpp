@@ -28,6 +28,17 @@ JobFiles job_files(const fs::path& output, const std::string& job) {
           stem.string() + ".checkpoint.csv"};
 }
 
+std::string kept_exemplar(const fs::path& output, const std::string& exemplar,
+                          const std::string& map) {
+  std::error_code ignored;
+  for (const auto* extension : {".png", ".exr", ".tif"})
+    if (const std::string file =
+            fmt::format("{}/exemplar{}{}{}", exemplar, map.empty() ? "" : "_", map, extension);
+        fs::is_regular_file(output / file, ignored))
+      return file;
+  return "";
+}
+
 void create_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);

@@ -20,6 +20,12 @@ struct JobFiles {
 /// The files of the job called "exemplar/method/seed1" in the folder `output`.
 JobFiles job_files(const std::filesystem::path& output, const std::string& job);
 
+/// An exemplar's picture as the methods saw it, or one of its maps: the run in the folder `output`
+/// keeps it as "pebbles/exemplar.png" or "pebbles/exemplar_height.png", or in another format. From
+/// that folder on; "" where there is none.
+std::string kept_exemplar(const std::filesystem::path& output, const std::string& exemplar,
+                          const std::string& map = "");
+
 /// Makes a folder and those above it. Throws Error.
 void create_folder(const std::filesystem::path& folder);
 

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 class CommandLine : public Workspace {};
 
 TEST_F(CommandLine, HelpAndVersion) {
-  for (const std::string command : {"", "run", "check", "list", "report"}) {
+  for (const std::string command : {"", "run", "check", "list", "report", "benchmark"}) {
     const Outcome help = command.empty() ? run({"--help"}) : run({command, "--help"});
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_NE(help.output.find("Usage: gramloom " + command), std::string::npos) << help.output;

@@ -418,5 +418,41 @@ TEST_F(ConfigText, ListsThatAreEmptyAndNothingToMatch) {
             std::string::npos);
 }
 
+TEST_F(ConfigText, AFolderIsAnExemplarForEachPictureInIt) {
+  fs::create_directories(folder_ / "set" / "deeper.png");
+  for (const char* name : {"wall_2.png", "wall.png", "wall_height.png", "bark_colour.png",
+                           "bark_normal.png", "mud_mask.png", ".hidden.png", "B.JPG", "notes.txt"})
+    write_text(folder_ / "set" / name, "");
+  const Config config =
+      parse(quilting + exemplar + "[[exemplar]]\nname = 'all'\nfolder = 'set'\nmax_side = 7\n");
+  std::vector<std::string> names;
+  for (const ExemplarEntry& entry : config.exemplars) names.push_back(entry.name);
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"e", "B", "bark_colour", "mud_mask", "wall", "wall_2"}));
+  EXPECT_EQ(config.exemplars[1].image, folder_ / "set" / "B.JPG");
+  EXPECT_EQ(config.exemplars[1].max_side, 7);
+  EXPECT_EQ(config.exemplars[0].max_side, std::nullopt);
+
+  const Config other = parse(quilting + "[[exemplar]]\nname = 'all'\nfolder = 'set'\n",
+                             {"exemplar.all.folder=" + folder_.string()});
+  EXPECT_EQ(other.exemplars.size(), 1u);
+  EXPECT_EQ(other.exemplars[0].image.filename(), "e.png");
+}
+
+TEST_F(ConfigText, MistakesWithAFolderOfExemplars) {
+  const std::string folder = quilting + "[[exemplar]]\nname = 'all'\nfolder = ";
+  EXPECT_EQ(complaint(folder + "'gone'\n"), "a.toml:6:1: there is no folder gone");
+  EXPECT_EQ(complaint(folder + "'e.png'\n"), "a.toml:6:1: there is no folder e.png");
+  EXPECT_EQ(complaint(folder + "7\n"), "a.toml:6:1: 'folder' is a whole number, allowed is a text");
+  EXPECT_EQ(complaint(folder + "'.'\nimage = 'e.png'\n"),
+            "a.toml:7:1: 'image' is of one picture: leave it or 'folder' out");
+  EXPECT_EQ(complaint(folder + "'.'\nmaps = { height = 'e.png' }\n"),
+            "a.toml:7:1: 'maps' is of one picture: leave it or 'folder' out");
+  EXPECT_EQ(complaint(folder + "'.'\n" + exemplar), "a.toml:8:1: name 'e' is there twice");
+  fs::create_directory(folder_ / "empty");
+  EXPECT_EQ(complaint(folder + "'empty'\n"), "a.toml:6:1: there is no picture in empty");
+  fs::remove_all(folder_ / "empty");
+}
+
 }  // namespace
 }  // namespace gramloom

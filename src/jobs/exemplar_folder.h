@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace gramloom {
+
+/// The pictures in a folder, in the order of their names, by their extensions. Maps of another one
+/// there ("wall_height.png" beside "wall.png" or "wall_colour.png") are left out, and so are
+/// folders and hidden files. Throws Error, one line with the path, for what is no folder or cannot
+/// be read.
+std::vector<std::filesystem::path> pictures_in(const std::filesystem::path& folder);
+
+}  // namespace gramloom
