@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/error.h"
 #include "io/field_values.h"
@@ -21,6 +22,23 @@ std::string lack_of(const JobRecord& record) {
   if (!record.metrics.empty()) return "";
   return record.score_error.empty() ? "not scored"
                                     : fmt::format("not scored: {}", record.score_error);
+}
+
+// The jobs of methods with an exemplar, but for methods and exemplars of which none was begun: the
+// run was of a part (--only), or ended before them.
+std::vector<NamedRecord> compared_jobs(const RunOnDisk& run) {
+  std::set<std::string> methods, exemplars;
+  for (const JobOnDisk& job : run.jobs) {
+    if (job.record.status == Status::waiting) continue;
+    methods.insert(job.record.method);
+    exemplars.insert(job.record.exemplar);
+  }
+  std::vector<NamedRecord> jobs;
+  for (const JobOnDisk& job : run.jobs)
+    if (job.record.kind != "procedural" && methods.contains(job.record.method) &&
+        exemplars.contains(job.record.exemplar))
+      jobs.push_back({job.name, job.record});
+  return jobs;
 }
 
 // A line for each method that lacks jobs, with the first of them.
@@ -115,9 +133,7 @@ std::vector<BenchmarkColumn> benchmark_columns() {
 }
 
 Benchmark benchmark_run(const RunOnDisk& run, const PeerScores& peers, const std::string& against) {
-  std::vector<NamedRecord> jobs;
-  for (const JobOnDisk& job : run.jobs)
-    if (job.record.kind != "procedural") jobs.push_back({job.name, job.record});
+  std::vector<NamedRecord> jobs = compared_jobs(run);
   std::vector<std::string> methods;
   for (const auto& [name, record] : jobs)
     if (std::ranges::find(methods, record.method) == methods.end())

@@ -19,7 +19,8 @@ struct Benchmark {
   std::vector<std::string> missing;  // a line for what is not in the rows and should be
 };
 
-/// Throws ConfigError for a run without any scored job, and for an `against` that is no method.
+/// Methods and exemplars of which no job was begun are no part of it. Throws ConfigError for a run
+/// without any scored job, and for an `against` that is no method.
 Benchmark benchmark_run(const RunOnDisk& run, const PeerScores& peers, const std::string& against);
 
 enum class TableStyle { plain, markdown };
