@@ -8,7 +8,6 @@
 #include "io/image_file.h"
 #include "io/text_file.h"
 #include "jobs/machine.h"
-#include "jobs/map_file.h"
 #include "jobs/pattern.h"
 #include "report/preview.h"
 #include "runs/job_files.h"
@@ -33,8 +32,7 @@ struct MaterialFiles {
   Tile tile = Tile::none;
 };
 
-fs::path* member_of(MaterialFiles& files, const std::string& map) {
-  const std::string known = material_map(map);
+fs::path* member_of(MaterialFiles& files, const std::string& known) {
   if (known == "normal") return &files.normal;
   if (known == "height") return &files.height;
   if (known == "roughness") return &files.roughness;
@@ -45,24 +43,6 @@ fs::path* member_of(MaterialFiles& files, const std::string& map) {
 
 Json settings_of(const JobRecord& record, const char* key) {
   return record.settings.is_object() ? record.settings.value(key, Json::object()) : Json::object();
-}
-
-// Where the green of the job's normals points: those of the exemplar keep their way, those that a
-// run makes of a height have the way of [surface].
-GreenAxis green_of(const JobRecord& record, const std::string& map) {
-  const auto is_down = [](const Json& settings) { return settings.value("green", "") == "down"; };
-  const Json maps = settings_of(record, "exemplar").value("maps", Json::object());
-  if (maps.is_object() && maps.contains(map)) {
-    const Json& entry = maps.at(map);
-    MapFile file;
-    if (entry.is_object()) {
-      file.image = entry.value("image", "");
-      if (entry.contains("green") && entry.at("green").is_string())
-        file.green = is_down(entry) ? GreenAxis::down : GreenAxis::up;
-    }
-    return green_of_map(map, file);
-  }
-  return is_down(settings_of(record, "surface")) ? GreenAxis::down : GreenAxis::up;
 }
 
 double strength_of(const JobRecord& record) {
@@ -82,9 +62,11 @@ MaterialFiles files_of(const ExportWork& work, const JobOnDisk& job) {
     const std::string map = map_of_file(job.name, file);
     if (file == job.record.files.front()) {
       files.colour = folder / file;
-    } else if (fs::path* member = member_of(files, map); member && member->empty()) {
+    } else if (fs::path* member = member_of(files, material_map_of(job.record, map));
+               member && member->empty()) {
       *member = folder / file;
-      if (member == &files.normal) files.green = green_of(job.record, map);
+      if (const auto green = job.record.normals.find(map); green != job.record.normals.end())
+        files.green = green->second;
     }
   }
   return files;

@@ -77,6 +77,23 @@ inline CLI::Option* add_size(CLI::App& command, const std::string& option, Size&
       ->type_name("");
 }
 
+// Repeated, each time with one file.
+inline CLI::Option* add_paths(CLI::App& command, const std::string& option,
+                              std::vector<std::filesystem::path>& value,
+                              const std::string& meaning) {
+  return command
+      .add_option_function<std::vector<std::string>>(
+          option,
+          [&value](const std::vector<std::string>& words) {
+            value.assign(words.begin(), words.end());
+          },
+          meaning + "; can be repeated")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("FILE");
+}
+
 inline CLI::Option* add_path(CLI::App& command, const std::string& option,
                              std::filesystem::path& value, const std::string& meaning) {
   return command
@@ -107,10 +124,14 @@ std::vector<CLI::Option*> add_field_options(CLI::App& command, Params& params,
       added = command.add_flag(option + off, value, meaning);
     } else if constexpr (NamedEnum<T>) {
       added = add_word(command, option, value, meaning + "; " + std::string(to_word(value)));
+    } else if constexpr (is_optional<T>) {
+      added = add_word(command, option, value, meaning);
     } else if constexpr (std::is_same_v<T, Size>) {
       added = detail::add_size(command, option, value, field.range, meaning);
     } else if constexpr (std::is_base_of_v<std::filesystem::path, T>) {
       added = detail::add_path(command, option, value, meaning);
+    } else if constexpr (std::is_same_v<T, std::vector<std::filesystem::path>>) {
+      added = detail::add_paths(command, option, value, meaning);
     } else {
       if (standard != "[]") meaning += "; " + standard;
       added = command.add_option(option, value, meaning)

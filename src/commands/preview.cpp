@@ -4,8 +4,10 @@
 #include "commands/command.h"
 #include "commands/config_options.h"
 #include "commands/field_options.h"
+#include "commands/map_files.h"
 #include "core/error.h"
 #include "core/threads.h"
+#include "jobs/interruption.h"
 #include "jobs/preview_files.h"
 #include "jobs/progress_bar.h"
 
@@ -15,6 +17,7 @@ namespace {
 
 struct PreviewArguments {
   PreviewWork work;
+  std::vector<std::string> maps;
   std::string output;
   int threads = 0;
   bool quiet = false;
@@ -22,16 +25,24 @@ struct PreviewArguments {
 
 ExitCode preview_pictures(const PreviewArguments& arguments) {
   set_thread_count(arguments.threads);
+  PreviewWork work = arguments.work;
+  work.maps = named_maps(arguments.maps);
+  watch_signals();
   ProgressBar bar(progress_style(arguments.quiet));
   bar.start("preview", 1, 1);
   Control control;
   control.progress = [&](const Progress& progress) {
     bar.update(progress);
-    return true;
+    return !stop_asked();
   };
-  const PreviewFile made = make_preview(arguments.work, arguments.output, control);
-  for (const std::string& line : made.used) bar.message(line);
-  return print(arguments.output + "\n");
+  try {
+    const PreviewFile made = make_preview(work, arguments.output, control);
+    for (const std::string& line : made.used) bar.message(line);
+    return print(arguments.output + "\n");
+  } catch (const Interrupted&) {
+    bar.complaint("gramloom: interrupted; nothing is written");
+    return interrupted;
+  }
 }
 
 }  // namespace
@@ -49,7 +60,7 @@ Command add_preview(CLI::App& program) {
   preview->add_option("--output", arguments->output, "the picture to write")
       ->required()
       ->type_name("FILE");
-  add_repeated(*preview, "--map", arguments->work.maps,
+  add_repeated(*preview, "--map", arguments->maps,
                "a map of the first texture, its name and file: height, normal, roughness, "
                "metalness or occlusion",
                "NAME=FILE");

@@ -5,6 +5,7 @@
 #include "commands/command.h"
 #include "commands/config_options.h"
 #include "commands/field_options.h"
+#include "commands/map_files.h"
 #include "core/error.h"
 #include "core/threads.h"
 #include "jobs/interruption.h"
@@ -45,29 +46,13 @@ Size size_of(const std::string& text) {
   return {number(words.substr(0, cross)), number(words.substr(cross + 1))};
 }
 
-NamedFiles<MapFile> maps_of(const std::vector<std::string>& words) {
-  NamedFiles<MapFile> maps;
-  for (const std::string& word : words) {
-    const auto equals = word.find('=');
-    const std::string name = word.substr(0, equals);
-    if (equals == std::string::npos || name.empty() || equals + 1 == word.size() ||
-        name.find('/') != std::string::npos)
-      throw ConfigError("--map {}: needed is NAME=FILE, such as height=stones_height.png", word);
-    MapFile file;
-    file.image = word.substr(equals + 1);
-    if (!maps.emplace(name, file).second)
-      throw ConfigError("--map {}: there are two maps of this name", word);
-  }
-  return maps;
-}
-
 ExitCode tile(const TileArguments& arguments) {
   set_thread_count(arguments.threads);
   TileWork work = arguments.work;
   work.picture = arguments.picture;
   work.output = arguments.output;
   work.size = size_of(arguments.size);
-  work.maps = maps_of(arguments.maps);
+  work.maps = named_maps(arguments.maps);
   if (arguments.max_side > 0) work.max_side = arguments.max_side;
   watch_signals();
   ProgressBar bar(progress_style(arguments.quiet));

@@ -20,12 +20,16 @@ enum class MapKind {
   alpha    // coverage, 0 to 1
 };
 
+/// Where the green channel of a map of normals points: up the picture (OpenGL), or down (DirectX).
+enum class GreenAxis { up, down };
+
 /// Channels [first, first + count) of an exemplar's image.
 struct Layer {
   std::string name;  // that of the map's file; "" for the picture itself
   MapKind kind = MapKind::colour;
   int first = 0;
   int count = 0;
+  GreenAxis green = GreenAxis::up;  // of normals
 
   friend bool operator==(const Layer&, const Layer&) = default;
 };

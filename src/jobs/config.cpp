@@ -139,14 +139,15 @@ void check_surface(const Config& config, toml::table& table) {
   bool any_height = false;
   for (const MethodEntry& method : config.methods) any_height |= !needs_exemplar(method.method);
   for (const ExemplarEntry& exemplar : config.exemplars) {
-    any_height |= exemplar.maps.contains("height");
+    any_height |= !height_among(exemplar.maps, config.surface).empty();
     for (const std::string& name : asked)
       if (exemplar.maps.contains(name))
         fail(region, "the map '{}' is the exemplar's own, of '{}': leave one of the two out", name,
              exemplar.name);
   }
   if (!any_height)
-    fail(region, "'surface' makes maps of heights: no exemplar has a map called 'height'");
+    fail(region, "'surface' makes maps of heights: no exemplar has a map called '{}'",
+         config.surface.height);
 }
 
 // What a preview's fields cannot say alone; and its file is not that of a map.
@@ -203,7 +204,7 @@ Config parse_config(const std::string& text, const fs::path& file,
   config.exemplars = read_exemplars(table);
   config.methods = read_methods(table);
   config.baseline = read_section<BaselineLimits>(table, "baseline");
-  config.surface = read_section<MapParams>(table, "surface");
+  config.surface = read_section<SurfaceParams>(table, "surface");
   if (single_section(table, "preview")) {
     config.preview = read_section<PreviewParams>(table, "preview");
     check_preview_section(config, key_region(table, "preview"));

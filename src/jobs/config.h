@@ -67,7 +67,7 @@ struct Config {
   std::vector<ExemplarEntry> exemplars;
   std::vector<MethodEntry> methods;
   BaselineLimits baseline;               // its [baseline]
-  MapParams surface;                     // its [surface]: maps of every result that has a height
+  SurfaceParams surface;                 // its [surface]: maps of every result that has a height
   std::optional<PreviewParams> preview;  // its [preview]: a picture of every result on a shape
 
   static constexpr auto fields() {

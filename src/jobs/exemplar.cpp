@@ -96,8 +96,8 @@ LoadedExemplar load_exemplar(const ExemplarEntry& entry) {
     keep_notes(path, map.notes);
     note_missing_data(map.image, path.filename().string(), loaded.notes);
     ExemplarFile file{name, map.image.channels, std::move(map.encoding)};
+    file.green = green_of_map(name, entry_of_map, map.metadata);
     file.kind = kind_of_map(name, entry_of_map, map.image);
-    file.green = green_of_map(name, entry_of_map);
     check_channels(entry, entry_of_map, file);
     file.kind == MapKind::normal ? fit_normals(map.image, file)
                                  : fit_into_unit_range(map.image, file);
@@ -118,7 +118,7 @@ std::vector<Layer> layers_of(const std::vector<ExemplarFile>& files) {
   std::vector<Layer> layers;
   int first = 0;
   const auto add = [&](const ExemplarFile& file, MapKind kind, int count) {
-    if (count > 0) layers.push_back({file.map, kind, first, count});
+    if (count > 0) layers.push_back({file.map, kind, first, count, file.green});
     first += std::max(0, count);
   };
   for (const ExemplarFile& file : files) {

@@ -1,10 +1,9 @@
 #include "jobs/job_preview.h"
 
-#include <algorithm>
-
 #include "core/error.h"
 #include "jobs/preview_files.h"
 #include "jobs/solid_texture.h"
+#include "runs/map_names.h"
 
 namespace gramloom {
 
@@ -20,21 +19,30 @@ Volume volume_of(const Texture& texture) {
   return volume;
 }
 
-PreviewMaterial material_of(const Config& config, const Method& method, Random random,
-                            const Texture& texture, const OutputFormat& format) {
+PreviewMaterial material_of(const Config& config, const ShownTexture& shown) {
+  const Texture& texture = shown.texture;
   PreviewMaterial material;
   if (config.preview->mapping == Mapping::solid) {
     material.volume = volume_of(texture);
-    const auto* procedural = std::get_if<ProceduralParams>(&method);
+    const auto* procedural = std::get_if<ProceduralParams>(&shown.method);
     if (material.volume.slices.empty() && procedural)
-      material.solid = solid_of(*procedural, random);
+      material.solid = solid_of(*procedural, shown.random);
     return material;
   }
   const Image colours = extract_channels(texture.image, 0, texture.image.channels < 3 ? 1 : 3);
-  material.colour = is_coded(format.encoding.pixel_type) ? linear_picture(colours) : colours;
-  for (const auto& [name, map] : texture.maps)
-    if (std::find(preview_maps.begin(), preview_maps.end(), name) != preview_maps.end())
-      material.maps[name] = name == "normal" ? map : one_channel(map);
+  material.colour =
+      is_coded(shown.formats.picture.encoding.pixel_type) ? linear_picture(colours) : colours;
+  material.wraps = config.tile;
+  const auto normals = normals_of(shown.formats);
+  for (const auto& [name, map] : texture.maps) {
+    const auto green = normals.find(name);
+    const std::string what = green != normals.end()          ? "normal"
+                             : name == config.surface.height ? "height"
+                                                             : material_map(name);
+    if (what.empty() || material.maps.contains(what)) continue;
+    material.maps[what] = what == "normal" ? map : one_channel(map);
+    if (green != normals.end()) material.green = green->second;
+  }
   return material;
 }
 
@@ -44,7 +52,8 @@ Named<fs::path> preview_files(const Config& config) {
   Named<fs::path> files;
   if (!config.preview) return files;
   const PreviewParams& params = *config.preview;
-  if (!params.environment.empty()) files.push_back({"environment", params.environment});
+  for (const fs::path& file : params.environment)
+    files.push_back({fmt::format("environment_{}", files.size()), file});
   if (!params.shape.is_name()) files.push_back({"shape", params.shape});
   return files;
 }
@@ -56,16 +65,16 @@ Named<std::string> preview_hashes(const Config& config, FileHashes& hashes) {
 }
 
 std::string write_preview(const fs::path& folder, const std::string& name, const Config& config,
-                          const Method& method, Random random, const Texture& texture,
-                          const OutputFormat& format, const Control& control,
+                          const ShownTexture& shown, FileHashes& hashes,
+                          PreviewEnvironment& environment, const Control& control,
                           std::vector<std::string>& notes) {
   if (!config.preview) return "";
   const PreviewParams& params = *config.preview;
   try {
-    const PreviewMaterial material = material_of(config, method, random, texture, format);
-    const Image environment =
-        params.environment.empty() ? Image() : read_colours(params.environment);
-    const Image rendered = render_preview(params, {&material, 1}, environment, control);
+    const PreviewMaterial material = material_of(config, shown);
+    if (auto now = preview_hashes(config, hashes); !environment.image || environment.hashes != now)
+      environment = {std::move(now), read_environment(params)};
+    const Image rendered = render_preview(params, {&material, 1}, *environment.image, control);
     const std::string file = name + "_preview.png";
     write_image(folder / file, shown_preview(params, rendered), {});
     return file;

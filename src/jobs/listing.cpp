@@ -111,9 +111,11 @@ std::string job_table(const Config& config, const Plan& plan) {
   for (const auto& planned : plan.jobs) {
     if (!planned.selected) continue;
     ++count;
-    const double job_seconds = planned.cost.seconds + planned.scoring.seconds;
-    const double bytes = program_memory(config.methods[planned.job.method].method) +
-                         std::max(planned.cost.bytes, planned.scoring.bytes);
+    const double job_seconds =
+        planned.cost.seconds + planned.finishing.seconds + planned.scoring.seconds;
+    const double bytes =
+        program_memory(config.methods[planned.job.method].method) +
+        std::max({planned.cost.bytes, planned.finishing.bytes, planned.scoring.bytes});
     seconds += job_seconds;
     rows.push_back({planned.name, memory_text(bytes), clock_text(job_seconds),
                     problem_of(config, plan, planned, available)});
@@ -134,7 +136,7 @@ std::string list_maps() {
     text += fmt::format("{}: {}\n", Params::name, Params::summary);
     text += text_table(parameter_rows<Params>(), "  ") + "\n";
   };
-  add(std::type_identity<MapParams>());
+  add(std::type_identity<SurfaceParams>());
   add(std::type_identity<PhotoParams>());
   add(std::type_identity<PreviewParams>());
   return text;

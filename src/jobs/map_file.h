@@ -5,15 +5,11 @@
 #include <optional>
 #include <string>
 
-#include "core/fields.h"
-#include "core/request.h"
-#include "surface/normal_map.h"
+#include "core/image.h"
+#include "core/map_words.h"
+#include "io/image_file.h"
 
 namespace gramloom {
-
-template <>
-inline constexpr auto enum_names<MapKind> = std::to_array<std::string_view>({"colour", "scalar",
-                                                                             "normal", "alpha"});
 
 /// A map of an exemplar as the config names it: a file, or a table of these fields.
 struct MapFile {
@@ -44,8 +40,11 @@ std::optional<MapKind> usual_map(const std::string& name);
 /// counts first.
 MapKind kind_of_map(const std::string& map, const MapFile& file, const Image& values);
 
-/// Where its green points: as the config says, else down where its file's name says DirectX, else
-/// up.
-GreenAxis green_of_map(const std::string& map, const MapFile& file);
+/// Where its green points: as the config says, else as its name or its file's does (DirectX,
+/// OpenGL), else as a file of ours says itself, else up.
+GreenAxis green_of_map(const std::string& map, const MapFile& file, const Metadata& metadata);
+
+/// What a file of normals of ours says of its green.
+Metadata green_metadata(GreenAxis green);
 
 }  // namespace gramloom

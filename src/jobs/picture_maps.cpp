@@ -160,7 +160,9 @@ MadeMaps make_maps(const MapWork& work) {
                                        file, double{highest} * work.maps.strength,
                                        double{highest} * work.maps.strength));
     }
-    for (const std::string& note : write_image(made.files[i], map, formats[i].encoding, metadata))
+    Metadata own = metadata;
+    if (names[i] == "normal") own.merge(green_metadata(work.maps.green));
+    for (const std::string& note : write_image(made.files[i], map, formats[i].encoding, own))
       made.notes.push_back(file + ": " + note);
     if (work.source == MapSource::photo) note_guesses(made, names[i], file);
   }

@@ -8,6 +8,7 @@
 #include "jobs/pattern.h"
 #include "jobs/results.h"
 #include "metrics/scores.h"
+#include "surface/preview.h"
 
 namespace gramloom {
 
@@ -31,12 +32,13 @@ void check_values(const ExemplarEntry& exemplar, const Image& joined) {
 void check_height(const Config& config, const ExemplarEntry& exemplar,
                   const LoadedExemplar& loaded) {
   if (maps_asked(config.surface).empty()) return;
+  const std::string height = height_among(exemplar.maps, config.surface);
   for (const Layer& layer : loaded.exemplar.layers) {
-    if (layer.name != "height") continue;
+    if (layer.name.empty() || layer.name != height) continue;
     try {
       one_channel(extract_channels(loaded.exemplar.image, layer.first, layer.count));
     } catch (const Error& error) {
-      throw ConfigError("{}: {}: {}", exemplar.place, exemplar.maps.at("height").image.string(),
+      throw ConfigError("{}: {}: {}", exemplar.place, exemplar.maps.at(height).image.string(),
                         error.what());
     }
   }
@@ -73,6 +75,18 @@ RequestSize request_size(const Config& config, const Plan& plan, const Job& job,
   return request;
 }
 
+// Of what a job makes of its texture: the maps of its height, its preview.
+Cost cost_of_finishing(const Config& config, const Job& job) {
+  Cost cost;
+  const bool has_height =
+      !job.exemplar || !height_among(config.exemplars[*job.exemplar].maps, config.surface).empty();
+  if (has_height && !maps_asked(config.surface).empty())
+    cost = estimate_maps(config.surface, config.size);
+  if (!config.preview) return cost;
+  const Cost preview = estimate_preview(*config.preview, config.size);
+  return {cost.bytes + preview.bytes, cost.seconds + preview.seconds};
+}
+
 // The cost of a job, or why the method cannot do it. A ConfigError is for the user to mend first.
 void estimate_job(const Config& config, const Plan& plan, PlannedJob& planned) {
   const MethodEntry& method = config.methods[planned.job.method];
@@ -83,6 +97,7 @@ void estimate_job(const Config& config, const Plan& plan, PlannedJob& planned) {
     check_formats(config, facts);
     planned.cost =
         estimate_method(method.method, request_size(config, plan, planned.job, config.size));
+    planned.finishing = cost_of_finishing(config, planned.job);
     if (config.scores && planned.job.exemplar)
       planned.scoring = estimate_scores(facts.size, facts.files.front().channels, config.size);
   } catch (const ConfigError& error) {
@@ -151,7 +166,7 @@ Plan make_plan(const Config& config, const std::string& only) {
   Plan plan;
   for (const auto& exemplar : config.exemplars) plan.exemplars.push_back(look_at(config, exemplar));
   for (const Job& job : all_jobs(config)) {
-    PlannedJob planned{job, job_name(config, job), {}, {}, {}, true};
+    PlannedJob planned{job, job_name(config, job), {}, {}, {}, {}, true};
     planned.selected = job_matches(only, planned.name);
     // Seeds cost the same.
     const bool first_seed = plan.jobs.empty() || plan.jobs.back().job.method != job.method ||
@@ -160,6 +175,7 @@ Plan make_plan(const Config& config, const std::string& only) {
       estimate_job(config, plan, planned);
     } else {
       planned.cost = plan.jobs.back().cost;
+      planned.finishing = plan.jobs.back().finishing;
       planned.scoring = plan.jobs.back().scoring;
       planned.error = plan.jobs.back().error;
     }
@@ -185,7 +201,8 @@ std::string diversity_refusal(const Cost& cost, double available) {
 
 std::string memory_refusal(const Config& config, const Plan& plan, const PlannedJob& planned,
                            double available) {
-  if (planned.cost.bytes <= available) return "";
+  if (planned.cost.bytes <= available)
+    return refusal_of("making its maps and preview", planned.finishing, available);
   const auto scaled = [&](double scale) {
     return Size{std::max(1, static_cast<int>(config.size.width * scale)),
                 std::max(1, static_cast<int>(config.size.height * scale))};

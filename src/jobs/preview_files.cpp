@@ -3,9 +3,11 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "io/image_file.h"
+#include "io/image_encode.h"
+#include "jobs/map_file.h"
 #include "jobs/protected_files.h"
 #include "jobs/solid_texture.h"
+#include "runs/map_names.h"
 #include "surface/maps.h"
 
 namespace gramloom {
@@ -35,10 +37,7 @@ std::string texture_name(const fs::path& picture) {
 std::string map_name(const fs::path& picture, const fs::path& map) {
   const std::string stem = texture_name(picture) + "_", name = map.stem().string();
   if (!name.starts_with(stem) || picture.parent_path() != map.parent_path()) return "";
-  const std::string word = name.substr(stem.size());
-  const bool known =
-      std::find(preview_maps.begin(), preview_maps.end(), word) != preview_maps.end();
-  return known ? word : "";
+  return material_map(name.substr(stem.size()));
 }
 
 std::vector<TextureFiles> grouped(const std::vector<std::string>& images) {
@@ -74,10 +73,11 @@ void find_beside(TextureFiles& texture, std::vector<std::string>& used) {
   }
 }
 
-Image read_map(const std::string& name, const fs::path& file) {
+void read_map(const std::string& name, const fs::path& file, PreviewMaterial& material) {
   try {
-    Image map = read_image(file).image;
-    return name == "normal" ? map : one_channel(map);
+    ImageFile map = read_image(file);
+    if (name == "normal") material.green = green_of_map(name, {file, {}, {}}, map.metadata);
+    material.maps[name] = name == "normal" ? std::move(map.image) : one_channel(map.image);
   } catch (const Error& error) {
     const std::string what = error.what();
     throw Error("{}{}", what.starts_with(file.string()) ? "" : file.string() + ": ", what);
@@ -87,11 +87,12 @@ Image read_map(const std::string& name, const fs::path& file) {
 PreviewMaterial read_texture(const TextureFiles& files) {
   PreviewMaterial material;
   material.colour = read_colours(files.picture);
-  for (const auto& [name, file] : files.maps) material.maps[name] = read_map(name, file);
+  for (const auto& [name, file] : files.maps) read_map(name, file, material);
   return material;
 }
 
-// The picture must not take the place of what it is made from.
+// The picture must not take the place of what it is made from, and it must be one that can be
+// written.
 void check_output(const PreviewWork& work, const std::vector<TextureFiles>& textures,
                   const fs::path& output) {
   const std::string reader = "the preview is made from";
@@ -99,32 +100,77 @@ void check_output(const PreviewWork& work, const std::vector<TextureFiles>& text
   for (const std::string& image : work.images) read.push_back({image, reader});
   for (const TextureFiles& texture : textures)
     for (const auto& [name, file] : texture.maps) read.push_back({file, reader});
-  for (const std::string& map : work.maps) read.push_back({map.substr(map.find('=') + 1), reader});
-  read.push_back({work.params.environment, reader});
+  for (const fs::path& file : work.params.environment) read.push_back({file, reader});
   read.push_back({work.params.shape, reader});
   try {
+    const int channels = work.params.background == Background::transparent ? 4 : 3;
+    encoded_image(output.extension().string(), Image(1, 1, channels), {});
+    const fs::path folder = output.parent_path();
+    if (!folder.empty() && !fs::is_directory(folder))
+      throw Error("there is no folder {}", folder.string());
+    if (fs::is_directory(output)) throw Error("is a folder");
     ProtectedFiles(read).check(output);
   } catch (const Error& error) {
     throw ConfigError("--output {}: {}", output.string(), error.what());
   }
 }
 
-// "height=FILE", in place of what was found.
-void add_named_maps(TextureFiles& texture, const std::vector<std::string>& maps) {
-  for (const std::string& map : maps) {
-    const std::size_t equals = map.find('=');
-    if (equals == std::string::npos) throw ConfigError("--map {}: must be name=file", map);
-    texture.maps[map.substr(0, equals)] = map.substr(equals + 1);
+bool is_name(const std::string& image) { return FileOrName(image).is_name(); }
+
+// What is given must have an effect.
+void check_use(const PreviewWork& work) {
+  const bool solid = work.params.mapping == Mapping::solid;
+  const bool named = std::any_of(work.images.begin(), work.images.end(), is_name);
+  if (!work.set.empty() && !named)
+    throw ConfigError("--set {}: has no effect, {} is no procedural texture but a picture",
+                      work.set.front(), work.images.front());
+  if (work.maps.empty()) return;
+  const std::string& map = work.maps.begin()->first;
+  if (solid) throw ConfigError("--map {}: has no effect on a solid", map);
+  if (is_name(work.images.front()))
+    throw ConfigError("--map {}: has no effect on the procedural texture '{}', which has its own",
+                      map, work.images.front());
+}
+
+// In place of what was found.
+void add_named_maps(TextureFiles& texture, const NamedFiles<MapFile>& maps) {
+  for (const auto& [name, file] : maps) {
+    const std::string known = material_map(name);
+    texture.maps[known.empty() ? name : known] = file.image;
   }
 }
 
-PreviewMaterial read_volume(const std::vector<std::string>& slices) {
-  PreviewMaterial material;
-  for (const std::string& slice : slices) material.volume.slices.push_back(read_colours(slice));
-  return material;
+std::vector<PreviewMaterial> read_materials(const PreviewWork& work,
+                                            const std::vector<TextureFiles>& textures) {
+  std::vector<PreviewMaterial> materials;
+  if (textures.empty()) {
+    materials.emplace_back();
+    for (const std::string& slice : work.images)
+      materials.front().volume.slices.push_back(read_colours(slice));
+  }
+  const bool solid = work.params.mapping == Mapping::solid;
+  for (const TextureFiles& texture : textures)
+    materials.push_back(is_name(texture.picture.string())
+                            ? procedural_material(texture.picture.string(), work.set, solid)
+                            : read_texture(texture));
+  return materials;
 }
 
-bool is_name(const std::string& image) { return FileOrName(image).is_name(); }
+Image render(const PreviewWork& work, const fs::path& output, std::vector<std::string>& used,
+             const Control& control) {
+  check_preview(work.params);
+  check_use(work);
+  std::vector<TextureFiles> textures;  // none of a stack of slices
+  if (work.params.mapping != Mapping::solid ||
+      std::all_of(work.images.begin(), work.images.end(), is_name))
+    textures = grouped(work.images);
+  for (TextureFiles& texture : textures)
+    if (!is_name(texture.picture.string())) find_beside(texture, used);
+  if (!textures.empty()) add_named_maps(textures.front(), work.maps);
+  check_output(work, textures, output);
+  return render_preview(work.params, read_materials(work, textures), read_environment(work.params),
+                        control);
+}
 
 }  // namespace
 
@@ -133,27 +179,26 @@ Image read_colours(const fs::path& file) {
   return is_coded(read.encoding.pixel_type) ? linear_picture(read.image) : read.image;
 }
 
-PreviewFile make_preview(const PreviewWork& work, const fs::path& output, const Control& control) {
-  check_preview(work.params);
-  PreviewFile result;
-  const bool solid = work.params.mapping == Mapping::solid;
-  const bool slices = solid && !std::all_of(work.images.begin(), work.images.end(), is_name);
-  std::vector<TextureFiles> textures;
-  if (!slices) textures = grouped(work.images);
-  for (TextureFiles& texture : textures)
-    if (!is_name(texture.picture.string())) find_beside(texture, result.used);
-  if (!textures.empty()) add_named_maps(textures.front(), work.maps);
-  check_output(work, textures, output);
+Image read_environment(const PreviewParams& params) {
+  if (params.environment.empty()) return {};
+  if (params.environment.size() == 1) return read_colours(params.environment.front());
+  std::vector<Image> faces;
+  for (const fs::path& file : params.environment) faces.push_back(read_colours(file));
+  return sky_box_strip(faces);
+}
 
-  std::vector<PreviewMaterial> materials;
-  for (const TextureFiles& texture : textures)
-    materials.push_back(is_name(texture.picture.string())
-                            ? procedural_material(texture.picture.string(), work.set, solid)
-                            : read_texture(texture));
-  if (slices) materials.push_back(read_volume(work.images));
-  const Image environment =
-      work.params.environment.empty() ? Image() : read_colours(work.params.environment);
-  const Image rendered = render_preview(work.params, materials, environment, control);
+PreviewFile make_preview(const PreviewWork& work, const fs::path& output, const Control& control) {
+  PreviewFile result;
+  Image rendered;
+  try {
+    rendered = render(work, output, result.used, control);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const ConfigError&) {
+    throw;
+  } catch (const Error& error) {
+    throw ConfigError("{}", error.what());
+  }
   write_image(output, shown_preview(work.params, rendered), {});
   return result;
 }

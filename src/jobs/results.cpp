@@ -32,6 +32,7 @@ bool can_hold(FileFormat format, int channels) {
 // The format of an exemplar's map. An integer file has only 0 to 1: values beyond are scaled.
 OutputFormat format_of_map(const Config& config, const ExemplarFile& file) {
   OutputFormat format = output_format(config, file.encoding, file.channels);
+  if (file.kind == MapKind::normal) format.green = file.green;
   const PixelType stored = stored_type(format.extension, format.encoding.pixel_type);
   if (stored == PixelType::uint8 || stored == PixelType::uint16) {
     format.low = file.low;
@@ -44,13 +45,16 @@ OutputFormat format_of_map(const Config& config, const ExemplarFile& file) {
 OutputFormat format_of_own_map(const Image& map, const Image& texture, const OutputFormat& format) {
   if (map.channels == texture.channels) return format;
   const PixelType type = format.encoding.pixel_type;
-  return {format.extension, {type == PixelType::uint8 ? PixelType::uint16 : type, "", {}}, 0, 1};
+  return {
+      format.extension, {type == PixelType::uint8 ? PixelType::uint16 : type, "", {}}, 0, 1, {}};
 }
 
 // The format of a map that is made of the height: with steps as fine as that one's.
-OutputFormat format_of_made_map(const Config& config, const Image& map,
+OutputFormat format_of_made_map(const Config& config, const std::string& name, const Image& map,
                                 const OutputFormat& height) {
-  return output_format(config, {height.encoding.pixel_type, "", {}}, map.channels);
+  OutputFormat format = output_format(config, {height.encoding.pixel_type, "", {}}, map.channels);
+  if (name == "normal") format.green = config.surface.green;
+  return format;
 }
 
 // With the format's `low` as 0 and its `high` as 1.
@@ -63,7 +67,7 @@ Image scaled(Image map, const OutputFormat& format) {
 }  // namespace
 
 OutputFormat output_format(const Config& config, const Encoding& exemplar, int channels) {
-  OutputFormat output{"", exemplar, 0, 1};
+  OutputFormat output{"", exemplar, 0, 1, {}};
   if (config.pixel_type) output.encoding.pixel_type = *config.pixel_type;
   const FileFormat format = choose_format(config, output.encoding.pixel_type, channels);
   output.extension = fmt::format(".{}", to_word(format));
@@ -92,8 +96,16 @@ OutputFormats output_formats(const Config& config, const std::vector<ExemplarFil
   for (const std::string& name : made)
     if (texture.maps.contains(name))
       formats.maps[name] =
-          format_of_made_map(config, texture.maps.at(name), formats.maps.at("height"));
+          format_of_made_map(config, name, texture.maps.at(name),
+                             formats.maps.at(height_among(texture.maps, config.surface)));
   return formats;
+}
+
+std::map<std::string, GreenAxis> normals_of(const OutputFormats& formats) {
+  std::map<std::string, GreenAxis> normals;
+  for (const auto& [map, format] : formats.maps)
+    if (format.green) normals[map] = *format.green;
+  return normals;
 }
 
 WrittenTexture write_texture(const fs::path& folder, const std::string& name,
@@ -101,11 +113,13 @@ WrittenTexture write_texture(const fs::path& folder, const std::string& name,
                              const Json& settings) {
   Json made_by{{"gramloom", version()}};
   made_by.update(settings);
-  const Metadata metadata{{"gramloom:settings", to_text(made_by, -1, true)}};
+  const std::string settings_text = to_text(made_by, -1, true);
 
   WrittenTexture written;
   const auto write = [&](const std::string& stem, const Image& image, const OutputFormat& format) {
     const std::string file = stem + format.extension;
+    Metadata metadata = format.green ? green_metadata(*format.green) : Metadata();
+    metadata["gramloom:settings"] = settings_text;
     auto notes = write_image(folder / file, image, format.encoding, metadata);
     written.files.push_back(file);
     for (const std::string& note : notes) written.notes.push_back(file + ": " + note);
@@ -129,7 +143,8 @@ void write_exemplar(const fs::path& folder, const Exemplar& exemplar,
     const std::string name = picture ? "exemplar" : "exemplar_" + file.map;
     const OutputFormat format = output_format(Config(), file.encoding, file.channels);
     write_image(folder / (name + format.extension), picture ? parts.image : parts.maps.at(file.map),
-                format.encoding);
+                format.encoding,
+                file.kind == MapKind::normal ? green_metadata(file.green) : Metadata());
     for (const std::string extension : {".png", ".exr", ".tif"})
       if (extension != format.extension) remove_file(folder / (name + extension));
   }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct OutputFormat {
   float low =
       0;  // the values that become 0 and 1: those of a map beyond, where a file has integers
   float high = 1;
+  std::optional<GreenAxis> green;  // of a map of normals
 };
 OutputFormat output_format(const Config& config, const Encoding& exemplar, int channels);
 
@@ -34,6 +36,9 @@ struct OutputFormats {
 OutputFormats output_formats(const Config& config, const std::vector<ExemplarFile>& files,
                              const Texture& texture);
 
+/// The texture's maps of normals, and where their green points.
+std::map<std::string, GreenAxis> normals_of(const OutputFormats& formats);
+
 /// The names of a texture's files, its own first, and where they have other values than it: "file:
 /// …", a line each.
 struct WrittenTexture {
@@ -42,7 +47,8 @@ struct WrittenTexture {
 };
 
 /// Writes a texture and its maps as `name` + extension and `name`_<map> + extension in `folder`.
-/// Their metadata is the settings and nothing that differs from run to run.
+/// Their metadata is the settings, where normals' green points, and nothing that differs from run
+/// to run.
 WrittenTexture write_texture(const std::filesystem::path& folder, const std::string& name,
                              const Texture& texture, const OutputFormats& formats,
                              const Json& settings);

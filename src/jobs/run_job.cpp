@@ -107,9 +107,10 @@ void write_results(Run& run, const Work& work, Texture joined, const TraceLog& t
   const WrittenTexture written =
       write_texture(files.folder, files.name, texture, formats, record.settings);
   record.files = written.files;
-  const std::string preview =
-      write_preview(files.folder, files.name, run.config, work.method, work.request.random, texture,
-                    formats.picture, shown_work(run), record.notes);
+  record.normals = normals_of(formats);
+  const std::string preview = write_preview(
+      files.folder, files.name, run.config, {work.method, work.request.random, texture, formats},
+      run.hashes, run.environment, shown_work(run), record.notes);
   if (!preview.empty()) record.files.push_back(preview);
   record.notes.insert(record.notes.end(), written.notes.begin(), written.notes.end());
   record.texture = file_hash(files.folder / record.files.front());

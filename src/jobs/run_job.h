@@ -7,6 +7,7 @@
 #include "core/progress.h"
 #include "jobs/exemplar.h"
 #include "jobs/inputs.h"
+#include "jobs/job_preview.h"
 #include "jobs/plan.h"
 #include "jobs/runner.h"
 #include "metrics/exemplar_statistics.h"
@@ -29,6 +30,8 @@ struct Run {
   std::vector<ExemplarFile> files = {};  // of that exemplar
   std::vector<std::string> notes = {};   // likewise: where its values are not those of the files
   std::optional<ExemplarStatistics> statistics = {};  // of its picture, for the scores
+
+  PreviewEnvironment environment = {};  // of the previews
 
   const PlannedJob* made = nullptr;  // the last job whose texture was made, and
   SourceMap source = {};             // where the pixels of that came from

@@ -59,6 +59,7 @@ PreviewMaterial procedural_material(const std::string& name, const std::vector<s
   Texture texture =
       synthesise(params, {.target = {{1024, 1024}, Tile::both}, .random = random}, {});
   material.colour = linear_picture(texture.image);
+  material.wraps = Tile::both;
   if (const auto height = texture.maps.find("height"); height != texture.maps.end())
     material.maps["height"] = std::move(height->second);
   return material;

@@ -8,7 +8,7 @@
 
 namespace gramloom {
 
-/// Adds the maps that the config's [surface] asks for, made of the texture's map "height"; without
+/// Adds the maps that the config's [surface] asks for, made of the texture's height; without
 /// one, a note says so. Throws Error for a height of several channels that differ.
 void add_surface_maps(Texture& texture, const Config& config, std::vector<std::string>& notes);
 

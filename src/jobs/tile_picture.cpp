@@ -77,7 +77,13 @@ std::vector<Part> open_parts(const TileWork& work, const LoadedExemplar& exempla
       part.low = file.low;
       part.high = file.high;
     }
-    part.rows = open_image_rows(part.file, work.size, file.channels, encoding, metadata);
+    Metadata own = metadata;
+    if (file.kind == MapKind::normal) {
+      own.merge(green_metadata(file.green));
+      tiled.notes.push_back(
+          fmt::format("{}: green points {}", part.file.filename().string(), to_word(file.green)));
+    }
+    part.rows = open_image_rows(part.file, work.size, file.channels, encoding, own);
     first += file.channels;
     tiled.files.push_back(part.file);
     parts.push_back(std::move(part));

@@ -71,16 +71,27 @@ void read_maps(const RunOnDisk& run, const std::string& name, ShownExemplar& sou
   }
 }
 
-// The copies of an exemplar and its maps for the lit view.
+// Adds a map to a view if that knows it and has none of its kind. The record says of normals where
+// their green points.
+void add_map(SurfaceView& view, const JobRecord& record, const std::string& map,
+             const std::string& file) {
+  const std::string known = material_map_of(record, map);
+  if (known.empty() || known == "metalness" || !view.files.emplace(known, file).second) return;
+  if (const auto green = record.normals.find(map); green != record.normals.end())
+    view.green = green->second;
+}
+
+// The copies of an exemplar and its maps for the lit view; a job's record knows its normals.
 Json exemplar_view(const RunOnDisk& run, const std::string& name, const std::string& picture,
                    const ShownExemplar& source) {
   SurfaceView view{{{"colour", picture}}, source.white};
-  for (const auto& [map, path] : source.shown["maps"].items()) {
-    const std::string known = surface_map_of(map);
-    const std::string file = kept_exemplar(run.folder, name, map);
-    if (known.empty() || file.empty() || !view.files.emplace(known, file).second) continue;
-    if (known == "normal" && path.is_object()) view.green_down = path.value("green", "") == "down";
-  }
+  const auto job = std::ranges::find_if(run.jobs, [&](const JobOnDisk& any) {
+    return any.record.exemplar == name && any.record.status == Status::done;
+  });
+  const JobRecord record = job == run.jobs.end() ? JobRecord() : job->record;
+  for (const auto& [map, path] : source.shown["maps"].items())
+    if (const std::string file = kept_exemplar(run.folder, name, map); !file.empty())
+      add_map(view, record, map, file);
   return surface_view_file(run.folder, name + "/exemplar", view);
 }
 
@@ -153,8 +164,7 @@ Json origin_of(const RunOnDisk& run, const JobRecord& record) {
           {"edited", edited}};
 }
 
-// The copies of a job's pictures for the lit view, or null. Normals that a run makes of heights
-// point as its [surface] says, an exemplar's as the config says of the map.
+// The copies of a job's pictures for the lit view, or null.
 Json view_of(const RunOnDisk& run, const JobOnDisk& job, const ShownExemplar& source,
              Json& trouble) {
   const JobRecord& record = job.record;
@@ -166,15 +176,13 @@ Json view_of(const RunOnDisk& run, const JobOnDisk& job, const ShownExemplar& so
   SurfaceView view{{}, source.white};
   view.tile = tile_of(settings);
   view.strength = table(settings, "surface").value("strength", view.strength);
-  view.green_down = table(settings, "surface").value("green", "") == "down";
   for (const std::string& name : record.files) {
     if (fs::path(name).filename() != name) return nullptr;
-    const std::string label = label_of(job.name, name);
-    const std::string map = name == record.files.front() ? "colour" : surface_map_of(label);
     const std::string path = (fs::path(job.name).parent_path() / name).generic_string();
-    if (map.empty() || !view.files.emplace(map, path).second) continue;
-    const Json entry = table(table(table(settings, "exemplar"), "maps"), label);
-    if (map == "normal" && entry.contains("green")) view.green_down = entry.at("green") == "down";
+    if (name == record.files.front())
+      view.files["colour"] = path;
+    else
+      add_map(view, record, map_of_file(job.name, name), path);
   }
   try {
     return surface_view_file(run.folder, job.name, view);

@@ -9,7 +9,7 @@
 #include "io/json_text.h"
 #include "io/text_file.h"
 #include "report/preview.h"
-#include "runs/job_maps.h"
+#include "signal/normal_colours.h"
 #include "signal/resize.h"
 
 namespace gramloom {
@@ -98,9 +98,10 @@ Json maps_of(const fs::path& folder, const SurfaceView& view, double& strength) 
     } else if (name == "colour") {
       maps[name] = colour_url(picture, view.white);
     } else {
-      const int channels = name == "normal" && picture.image.channels >= 3 ? 3 : 1;
-      maps[name] = data_url(
-          ".png", encoded_image(".png", reduced(extract_channels(picture.image, 0, channels)), {}));
+      const bool normals = name == "normal" && picture.image.channels >= 3;
+      const Image map = normals ? as_colours(extract_channels(picture.image, 0, 3))
+                                : extract_channels(picture.image, 0, 1);
+      maps[name] = data_url(".png", encoded_image(".png", reduced(map), {}));
     }
   }
   return maps;
@@ -108,28 +109,22 @@ Json maps_of(const fs::path& folder, const SurfaceView& view, double& strength) 
 
 }  // namespace
 
-std::string surface_map_of(const std::string& label) {
-  const std::string map = material_map(label);
-  return map == "metalness" ? "" : map;
-}
-
 std::string surface_view_file(const fs::path& folder, const std::string& name,
                               const SurfaceView& view) {
   const fs::path shown = fs::path("page") / (name + ".view.js");
+  // What comes before the pictures, and must be as the view has it in an older script too.
+  const std::string begin = fmt::format("surfaceData({}, {{\"tile\":\"{}\",\"green\":\"{}\",",
+                                        to_text(Json(shown.generic_string()), -1, true),
+                                        to_word(view.tile), to_word(view.green));
   const bool stale = std::ranges::any_of(
       view.files, [&](const auto& file) { return is_older(folder / shown, folder / file.second); });
-  if (!stale) return shown.generic_string();
+  if (!stale && read_text(folder / shown).starts_with(begin)) return shown.generic_string();
   double strength = view.strength;
   const Json maps = maps_of(folder, view, strength);
-  const Json data{{"tile", to_word(view.tile)},
-                  {"green", view.green_down ? "down" : "up"},
-                  {"strength", strength},
-                  {"maps", maps}};
+  const Json data{{"strength", strength}, {"maps", maps}};
   std::error_code error;
   fs::create_directories((folder / shown).parent_path(), error);
-  write_text(folder / shown,
-             fmt::format("surfaceData({}, {});\n", to_text(Json(shown.generic_string()), -1, true),
-                         to_text(data, -1, true)));
+  write_text(folder / shown, fmt::format("{}{});\n", begin, to_text(data, -1, true).substr(1)));
   return shown.generic_string();
 }
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <initializer_list>
 
 #include "io/field_values.h"
+#include "runs/map_names.h"
 
 namespace gramloom {
 
@@ -16,16 +16,13 @@ std::string map_of_file(const std::string& job, const std::string& file) {
   return stem.starts_with(own) ? stem.substr(own.size()) : "";
 }
 
-std::string material_map(const std::string& map) {
-  const auto is = [&](std::initializer_list<std::string_view> words) {
-    return std::ranges::find(words, std::string_view(map)) != words.end();
-  };
-  if (is({"normal", "normals", "nrm"})) return "normal";
-  if (is({"height", "displacement", "disp", "bump"})) return "height";
-  if (is({"roughness", "rough"})) return "roughness";
-  if (is({"metalness", "metallic", "metal"})) return "metalness";
-  if (is({"occlusion", "ao", "ambient_occlusion"})) return "occlusion";
-  return "";
+std::string material_map_of(const JobRecord& record, const std::string& map) {
+  if (record.normals.contains(map)) return "normal";
+  const Json& settings = record.settings;
+  const bool is_height = settings.is_object() && settings.contains("surface") &&
+                         settings["surface"].is_object() &&
+                         settings["surface"].value("height", Json()) == map;
+  return is_height ? "height" : material_map(map);
 }
 
 Tile tile_of(const Json& settings) {

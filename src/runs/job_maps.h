@@ -4,6 +4,7 @@
 
 #include "core/image.h"
 #include "io/json_text.h"
+#include "runs/record.h"
 
 namespace gramloom {
 
@@ -11,9 +12,9 @@ namespace gramloom {
 /// "exemplar/method/seed1"; "" for the texture itself.
 std::string map_of_file(const std::string& job, const std::string& file);
 
-/// What a map is to a material, told by its name or a usual other word for it: normal, height,
-/// roughness, metalness or occlusion; "" for none of these.
-std::string material_map(const std::string& map);
+/// What a job's map is to a material: normal or height where the record knows it as such, else what
+/// its name says (runs/map_names.h); "" for none of a material's.
+std::string material_map_of(const JobRecord& record, const std::string& map);
 
 /// The edges of a job's texture that meet, by its settings; none where they do not say.
 Tile tile_of(const Json& settings);

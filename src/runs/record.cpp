@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "runs/format.h"
+#include "runs/map_names.h"
 
 namespace gramloom {
 
@@ -14,6 +15,41 @@ std::optional<LossSummary> summarise(const Trace& trace) {
   return LossSummary{last.step, last.evaluations, trace.rows.front().loss, last.loss};
 }
 
+namespace {
+
+Json table_in(const Json& json, const std::string& key) {
+  return json.is_object() && json.contains(key) && json.at(key).is_object() ? json.at(key)
+                                                                            : Json::object();
+}
+std::string text_in(const Json& json, const std::string& key) {
+  return json.contains(key) && json.at(key).is_string() ? json.at(key).get<std::string>() : "";
+}
+
+// The maps of normals of a record that lacks them, by what its settings say of the exemplar's maps
+// and of those that were made of a height.
+Json normals_of_settings(const Json& settings) {
+  Json normals = Json::object();
+  const Json surface = table_in(settings, "surface");
+  if (surface.value("normal", Json()) == true)
+    normals["normal"] = text_in(surface, "green") == "down" ? "down" : "up";
+  const Json maps = table_in(table_in(settings, "exemplar"), "maps");
+  for (const auto& [map, entry] : maps.items()) {
+    const std::string kind = entry.is_object() ? text_in(entry, "kind") : "";
+    const std::string green = entry.is_object() ? text_in(entry, "green") : "";
+    const std::string stem =
+        entry.is_object() ? fs::path(text_in(entry, "image")).stem().string() : "";
+    const auto named = kind_of_name(map, 3) ? kind_of_name(map, 3) : kind_of_name(stem, 3);
+    const bool is_normal =
+        kind.empty() ? named == MapKind::normal || !green.empty() : kind == "normal";
+    if (!is_normal) continue;
+    const auto by_name = green_of_name(map) ? green_of_name(map) : green_of_name(stem);
+    normals[map] = !green.empty() ? green : std::string(to_word(by_name.value_or(GreenAxis::up)));
+  }
+  return normals;
+}
+
+}  // namespace
+
 void JobRecord::upgrade(Json& json, const std::string& file) {
   for (const auto* key : {"exemplar", "method", "seed", "status"}) required_key(json, key, {file});
   if (json.contains("width") && json.contains("height"))
@@ -23,6 +59,8 @@ void JobRecord::upgrade(Json& json, const std::string& file) {
                     {"evaluations", required_key(json, "evaluations", {file})},
                     {"first", required_key(json, "loss_first", {file})},
                     {"last", json["loss_last"]}};
+  if (!json.contains("normals") && json.contains("settings"))
+    json["normals"] = normals_of_settings(json["settings"]);
 }
 
 void write_record(const fs::path& file, const JobRecord& record) { write_format(file, record); }

@@ -8,6 +8,7 @@
 
 #include "core/fields.h"
 #include "core/image.h"
+#include "core/map_words.h"
 #include "io/json_fields.h"
 #include "runs/circumstances.h"
 #include "runs/trace_file.h"
@@ -56,7 +57,7 @@ struct NetworkUsed {
 /// What a job left behind and what that depended on: the content of its JSON file, which is written
 /// last and so marks that the job's other files are complete.
 struct JobRecord {
-  static constexpr int version = 2;
+  static constexpr int version = 3;
   static constexpr std::string_view what = "the record of a job";
 
   std::string exemplar;  // the folder's name
@@ -80,7 +81,8 @@ struct JobRecord {
   std::optional<std::map<std::string, Values>> map_metrics;  // of the exemplar's maps, by name
   std::optional<LossSummary> loss;
   std::vector<std::string> files;  // pictures, beside the JSON file; the texture is the first
-  std::string texture;             // the hash of the first one's content
+  std::map<std::string, GreenAxis> normals;  // maps of normals by name: where their green points
+  std::string texture;                       // the hash of the first one's content
   std::string copy_map;  // picture of where pixels came from, relative to the run's folder; or ""
   std::vector<std::string> notes;  // where values of files were changed on the way: one line each
   double score_seconds = 0;        // apart from `seconds`
@@ -110,6 +112,7 @@ struct JobRecord {
         Field{"map_metrics", &R::map_metrics, "scores of maps, by the maps' names and theirs"},
         Field{"loss", &R::loss, "of an iterative method"},
         Field{"files", &R::files, "the texture and its maps"},
+        Field{"normals", &R::normals, "where the green of normals points, by the maps' names"},
         Field{"texture", &R::texture, "hash of the texture's file"},
         Field{"copy_map", &R::copy_map, "picture of where pixels came from"},
         Field{"notes", &R::notes, "where values of files were changed on the way"},
@@ -118,7 +121,8 @@ struct JobRecord {
     };
   }
 
-  /// Version 1 had the size in two keys and the loss in four. Throws Error.
+  /// Version 1 had the size in two keys and the loss in four; up to version 2 the settings alone
+  /// said where green points. Throws Error.
   static void upgrade(Json& json, const std::string& file);
 };
 

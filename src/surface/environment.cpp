@@ -133,6 +133,29 @@ BoxPoint sky_box_of(const Vec3& d) {
   return d.z >= 0 ? on(4, -d.x, d.y, az) : on(5, d.x, d.y, az);
 }
 
+Image sky_box_strip(std::span<const Image> faces) {
+  if (faces.size() != 6) throw Error("a sky box has {} faces: allowed are 6", faces.size());
+  const int side = faces.front().width;
+  Image strip(6 * side, side, 3);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const Image& face = faces[i];
+    if (face.size() != Size{side, side})
+      throw Error(
+          "face {} of the sky box has {}×{} pixels and the first {}×{}: they must be square "
+          "and of one size",
+          i + 1, face.width, face.height, side, faces.front().height);
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
+        const Vec3 colour = pixel(face, x, y);
+        float* to = strip.at(static_cast<int>(i) * side + x, y);
+        to[0] = colour.x;
+        to[1] = colour.y;
+        to[2] = colour.z;
+      }
+  }
+  return strip;
+}
+
 Image latlong_picture(const Image& picture, EnvironmentKind kind) {
   if (kind == EnvironmentKind::automatic) kind = kind_of(picture);
   check_proportions(picture, kind);

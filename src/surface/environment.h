@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "core/fields.h"
 #include "core/image.h"
@@ -39,6 +40,10 @@ struct BoxPoint {
   Vec2 at;
 };
 BoxPoint sky_box_of(const Vec3& direction);
+
+/// Six pictures of a sky box's faces, in their order, as a strip of three channels. Throws Error
+/// for another count, and for faces that are not square or not of one size.
+Image sky_box_strip(std::span<const Image> faces);
 
 /// The picture of any kind as a latitude–longitude one of three channels. Throws Error for
 /// proportions that the kind does not have.

@@ -7,6 +7,7 @@
 
 #include "core/fields.h"
 #include "core/image.h"
+#include "core/progress.h"
 #include "surface/normal_map.h"
 
 namespace gramloom {
@@ -57,6 +58,31 @@ struct MapParams {
     };
   }
 };
+
+/// The [surface] of a config: these maps of every result that has a height.
+struct SurfaceParams : MapParams {
+  std::string height = "height";
+
+  friend bool operator==(const SurfaceParams&, const SurfaceParams&) = default;
+
+  static constexpr auto fields() {
+    return std::tuple_cat(
+        MapParams::fields(),
+        std::tuple{Field{"height", &SurfaceParams::height,
+                         "the exemplar's map that is the height, of one channel; 'height' where a "
+                         "texture has none of this name"}});
+  }
+};
+
+/// The map of these that is the height; "" where there is none.
+template <class Maps>
+std::string height_among(const Maps& maps, const SurfaceParams& params) {
+  if (maps.contains(params.height)) return params.height;
+  return maps.contains("height") ? "height" : "";
+}
+
+/// What making them takes for a height of this size.
+Cost estimate_maps(const MapParams& params, Size size);
 
 /// The names of the maps that are asked for: "normal", "occlusion", "curvature".
 std::vector<std::string> maps_asked(const MapParams& params);

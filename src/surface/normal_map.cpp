@@ -32,11 +32,6 @@ void store_unit(float x, float y, float z, float* to) {
   }
 }
 
-void check_normal_map(const Image& picture) {
-  if (picture.channels < 3)
-    throw Error("a normal map has {} channels, allowed are 3 or more", picture.channels);
-}
-
 }  // namespace
 
 Image normals_from_height(const Image& height, double strength, Tile wraps) {
@@ -69,18 +64,6 @@ Image normals_to_colours(const Image& normals, GreenAxis green) {
       colour[2] = (n[2] + 1) / 2;
     }
   });
-  return picture;
-}
-
-bool is_signed(const Image& normal_map) {
-  return std::ranges::any_of(normal_map.pixels, [](float v) { return v < 0; });
-}
-
-Image as_colours(const Image& normal_map) {
-  check_normal_map(normal_map);
-  Image picture = normal_map;
-  if (is_signed(normal_map))
-    for (float& value : picture.pixels) value = (value + 1) / 2;
   return picture;
 }
 

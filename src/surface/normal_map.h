@@ -1,14 +1,10 @@
 #pragma once
 
-#include "core/fields.h"
 #include "core/image.h"
+#include "core/map_words.h"
+#include "signal/normal_colours.h"
 
 namespace gramloom {
-
-/// Where a normal map's green channel points: up the picture (OpenGL), or down (DirectX).
-enum class GreenAxis { up, down };
-template <>
-inline constexpr auto enum_names<GreenAxis> = std::to_array<std::string_view>({"up", "down"});
 
 /// Unit normals of a height map, in tangent space: three channels x, y, z in [−1, 1], with x to the
 /// right, y up the picture and z out of it; the direction of (−∂h/∂u, −∂h/∂v, 1) with v upwards
@@ -22,22 +18,15 @@ Image normals_from_height(const Image& height, double strength, Tile wraps);
 /// The picture of unit normals, RGB = (N + 1) / 2, so that 8 bits hold 255 (N + 1) / 2.
 Image normals_to_colours(const Image& normals, GreenAxis green);
 
-/// Whether a normal map's file holds components of [−1, 1] as they are: then one is negative.
-bool is_signed(const Image& normal_map);
-
-/// A normal map as such a picture, whatever its file holds: signed components (some write them so
-/// in floats) become (component + 1) / 2. Throws Error for fewer than three channels.
-Image as_colours(const Image& normal_map);
-
 /// Brings the normals in channels first to first + 2 of a picture to unit length, as colours; those
 /// of no length become (0, 0, 1).
 void make_unit(Image& picture, int first = 0);
 /// The same for one pixel's three channels.
 void make_unit(float* colour);
 
-/// The unit normals of a normal map: N = 2 RGB − 1 of as_colours(), divided by its length; a vector
-/// of no length becomes (0, 0, 1). Channels beyond the third are left out. Throws Error for fewer
-/// than three.
+/// The unit normals of a normal map: N = 2 RGB − 1 of as_colours() (signal/normal_colours.h),
+/// divided by its length; a vector of no length becomes (0, 0, 1). Channels beyond the third are
+/// left out. Throws Error for fewer than three.
 Image colours_to_normals(const Image& picture, GreenAxis green);
 
 }  // namespace gramloom

@@ -51,6 +51,23 @@ Image render_preview(const PreviewParams& params, std::span<const PreviewMateria
   return picture;
 }
 
+Cost estimate_preview(const PreviewParams& params, Size material) {
+  constexpr double channels = 8, with_levels = 4.0 / 3, per_triangle = 250;  // values, ×, bytes
+  const double picture = 1.0 * params.size.width * params.size.height;
+  const double samples = picture * params.samples * params.samples;
+  double texels = 1.0 * material.width * material.height;
+  if (params.stochastic) texels *= 8;  // of a cover that repeats a few times
+  // Edges of `detail` pixels, or the shortest that meshes have, over a ball.
+  const double edge =
+      std::max(2.6 * params.detail / std::min(params.size.width, params.size.height), 0.0045);
+  const double triangles = params.displacement != 0 ? 30 / (edge * edge) : 1e4;
+  const bool solid = params.mapping == Mapping::solid;
+  return {16 * picture + per_triangle * triangles +
+              (solid ? 0 : 4 * texels * channels * (1 + with_levels)),
+          0.1 + samples * (solid ? 1.2e-6 : 4e-7) + 1e-6 * triangles +
+              (solid ? 0 : 8e-9 * texels * channels)};
+}
+
 Image shown_preview(const PreviewParams& params, const Image& rendered) {
   const bool clear = params.background == Background::transparent;
   Image shown(rendered.size(), clear ? 4 : 3);

@@ -22,9 +22,11 @@ using Solid =
 struct PreviewMaterial {
   Image colour;  // linear values; one channel is grey; empty: white
   std::map<std::string, Image>
-      maps;       // of its size: height, normal, roughness, metalness, occlusion
-  Volume volume;  // for Mapping::solid, linear values
-  Solid solid;    // or this
+      maps;                         // of its size: height, normal, roughness, metalness, occlusion
+  GreenAxis green = GreenAxis::up;  // of the normals, unless the params say it
+  Tile wraps = Tile::none;          // edges at which the pictures are known to tile
+  Volume volume;                    // for Mapping::solid, linear values
+  Solid solid;                      // or this
 };
 
 /// The names of maps that a preview knows.
@@ -36,6 +38,9 @@ Image linear_picture(const Image& picture);
 
 /// Throws ConfigError for parameters out of range, or that don't fit together.
 void check_preview(const PreviewParams& params);
+
+/// What render_preview() takes for a material of this size with all maps.
+Cost estimate_preview(const PreviewParams& params, Size material);
 
 /// The picture of a shape with one material, or with two that share it by the params' pattern: four
 /// channels with linear values and alpha. `environment`: a picture with linear values, of the kind

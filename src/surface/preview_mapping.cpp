@@ -49,12 +49,27 @@ void check_preview(const PreviewParams& p) {
     vector_of(name, list);
   if (p.repeat.size() > 2)
     throw ConfigError("repeat has {} numbers: allowed are 1 or 2", p.repeat.size());
+  if (p.environment.size() > 1 && p.environment.size() != 6)
+    throw ConfigError("environment has {} files: allowed are 1, or the 6 faces of a sky box",
+                      p.environment.size());
+  if (p.environment.size() == 6 && p.environment_kind != EnvironmentKind::automatic &&
+      p.environment_kind != EnvironmentKind::sky_box)
+    throw ConfigError("environment has 6 files, the faces of a sky box, and not a {}",
+                      to_word(p.environment_kind));
   named_shape(p.shape);
   make_frame(p);
   linear_map({}, vector_of("u_axis", p.u_axis), vector_of("v_axis", p.v_axis));
   if (p.mapping == Mapping::solid && p.displacement != 0)
     throw ConfigError("displacement = {}: a solid has no height map to displace it",
                       p.displacement);
+  if (p.stochastic && p.mapping == Mapping::solid)
+    throw ConfigError("stochastic: a solid is not repeated");
+  if (p.stochastic && p.outside != Outside::tile)
+    throw ConfigError("stochastic: what is outside the picture must be 'tile', not '{}'",
+                      to_word(p.outside));
+  if (!p.stochastic && p.stochastic_rotation != 0)
+    throw ConfigError("stochastic_rotation = {}: has no effect without stochastic",
+                      p.stochastic_rotation);
 }
 
 Camera preview_camera(const PreviewParams& p) {

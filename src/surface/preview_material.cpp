@@ -64,7 +64,11 @@ void check_material(const PreviewMaterial& material) {
 
 MaterialLookup::MaterialLookup(const PreviewParams& params, const PreviewMaterial& material,
                                Vec2 repeat)
-    : params_(params), material_(material), repeat_(repeat) {
+    : params_(params),
+      material_(material),
+      repeat_(repeat),
+      colour_(linear_colour(params.colour)),
+      outside_colour_(linear_colour(params.outside_colour)) {
   check_material(material);
   if (Image picture = packed(); !picture.empty())
     lookup_ = make_lookup(picture, params.lookup, params.outside);
@@ -107,7 +111,9 @@ Image MaterialLookup::packed() {
   if (relief)
     put_slopes(picture, channels_.slopes, *height,
                params_.outside == Outside::tile ? Tile::both : Tile::none);
-  if (normal) put(picture, channels_.normal, colours_to_normals(*normal, params_.green), 3);
+  if (normal)
+    put(picture, channels_.normal,
+        colours_to_normals(*normal, params_.green.value_or(material_.green)), 3);
   if (channels_.roughness >= 0) put(picture, channels_.roughness, *find(material_, "roughness"), 1);
   if (channels_.metalness >= 0) put(picture, channels_.metalness, *find(material_, "metalness"), 1);
   if (channels_.occlusion >= 0) put(picture, channels_.occlusion, *find(material_, "occlusion"), 1);
@@ -131,8 +137,7 @@ void MaterialLookup::apply(const float* values, SurfacePoint& point) const {
   };
   if (channels_.colour >= 0) {
     const float* c = values + channels_.colour;
-    m.colour =
-        m.colour * (Vec3{c[0], c[1], c[2]} + linear_colour(params_.outside_colour) * (1 - inside));
+    m.colour = m.colour * (Vec3{c[0], c[1], c[2]} + outside_colour_ * (1 - inside));
   }
   m.roughness = scalar(channels_.roughness, m.roughness);
   m.metalness = scalar(channels_.metalness, m.metalness);
@@ -160,7 +165,7 @@ void MaterialLookup::apply(const float* values, SurfacePoint& point) const {
 void MaterialLookup::look_up(std::span<SurfacePoint*> points) const {
   for (SurfacePoint* point : points) {
     point->material = {params_.shading,
-                       linear_colour(params_.colour),
+                       colour_,
                        static_cast<float>(params_.roughness),
                        static_cast<float>(params_.metalness),
                        static_cast<float>(params_.specular),
@@ -177,8 +182,7 @@ void MaterialLookup::look_up(std::span<SurfacePoint*> points) const {
       material_.solid(places, width, colours);
     } else {
       for (std::size_t i = 0; i < points.size(); ++i)
-        colours[i] = trilinear(material_.volume, places[i], params_.outside,
-                               linear_colour(params_.outside_colour));
+        colours[i] = trilinear(material_.volume, places[i], params_.outside, outside_colour_);
     }
     for (std::size_t i = 0; i < points.size(); ++i)
       points[i]->material.colour = points[i]->material.colour * colours[i];

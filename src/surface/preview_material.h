@@ -44,6 +44,7 @@ class MaterialLookup {
   const PreviewParams& params_;
   const PreviewMaterial& material_;
   Vec2 repeat_;
+  Vec3 colour_, outside_colour_;  // the params', linear
   Channels channels_;
   int count_ = 0;
   std::unique_ptr<TextureLookup> lookup_, height_;

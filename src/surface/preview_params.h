@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,8 @@ struct PreviewParams {
   Size size{512, 512};
   int samples = 4;
   std::vector<double> repeat;
+  bool stochastic = false;
+  double stochastic_rotation = 0;
 
   Mapping mapping = Mapping::own;
   std::vector<double> mapping_origin{0, 0, 0};
@@ -67,7 +70,7 @@ struct PreviewParams {
   double bump = 0.04;
   double displacement = 0;
   double detail = 2;
-  GreenAxis green = GreenAxis::up;
+  std::optional<GreenAxis> green;
   Normals normals = Normals::own;
   Pattern pattern = Pattern::checkerboard;
   double pattern_repeat = 4;
@@ -77,7 +80,7 @@ struct PreviewParams {
   std::vector<double> light_colour{1, 0.96, 0.91};
   double light_size = 8;
 
-  std::filesystem::path environment;
+  std::vector<std::filesystem::path> environment;
   EnvironmentKind environment_kind = EnvironmentKind::automatic;
   double environment_strength = 0.55;
   double environment_turn = 0;
@@ -102,6 +105,13 @@ struct PreviewParams {
               "square; or along u and along v",
               "",
               {1e-3, 1e4}},
+        Field{"stochastic", &P::stochastic,
+              "repeat without repetition: pieces from random places of the texture, blended"},
+        Field{"stochastic_rotation",
+              &P::stochastic_rotation,
+              "of those pieces, by up to this either way",
+              "degrees",
+              {0, 180}},
         Field{"mapping", &P::mapping,
               "where texture coordinates come from: the shape, a formula, "
               "or, solid, the point itself"},
@@ -142,7 +152,8 @@ struct PreviewParams {
               "pixels",
               {0.25, 64}},
         Field{"green", &P::green,
-              "where a normal map's green points: up the picture (OpenGL), down (DirectX)"},
+              "where a normal map's green points: up the picture (OpenGL), down (DirectX); as the "
+              "map itself or its name says if not set"},
         Field{"normals", &P::normals, "of the shape: its own, means of the faces', or flat faces"},
         Field{"pattern", &P::pattern, "by which two materials share the shape"},
         Field{"pattern_repeat",
@@ -166,7 +177,9 @@ struct PreviewParams {
               "its diameter as seen from the shape: soft shadows",
               "degrees",
               {0, 90}},
-        Field{"environment", &P::environment, "a picture of the surroundings; a studio if not set"},
+        Field{"environment", &P::environment,
+              "a picture of the surroundings, or the six faces of a sky box (+x, -x, +y, -y, +z, "
+              "-z); a studio if not set"},
         Field{"environment_kind", &P::environment_kind, "what that picture shows"},
         Field{"environment_strength", &P::environment_strength, "of its light", "", {0, 1e4}},
         Field{

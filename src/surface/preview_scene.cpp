@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "surface/displacement.h"
 #include "surface/mesh_file.h"
+#include "surface/stochastic_cover.h"
 
 namespace gramloom {
 
@@ -38,6 +39,28 @@ void check_solid(const PreviewParams& params, const PreviewMaterial& material) {
     throw ConfigError("mapping = \"{}\": a solid texture has no picture to map; choose \"solid\"",
                       to_word(params.mapping));
   if (!material.volume.slices.empty()) check_volume(material.volume);
+}
+
+// More pixels of a cover than so many for each of the picture are never seen.
+constexpr double cover_pixels = 8;
+
+void add_materials(PreviewScene& scene, std::span<const PreviewMaterial> materials) {
+  const PreviewParams& p = scene.params;
+  scene.covers.reserve(materials.size());
+  scene.materials.reserve(materials.size());
+  for (const PreviewMaterial& material : materials) {
+    const Vec2 repeat = repeats(p, scene.mapping, size_of(material));
+    if (!p.stochastic) {
+      scene.materials.emplace_back(p, material, repeat);
+      continue;
+    }
+    const double longest =
+        cover_pixels * std::max(p.size.width, p.size.height) * std::max(1.0, p.zoom);
+    const Random random = Random(1).stream(scene.covers.size());
+    scene.covers.push_back(covered(material, repeat, p.stochastic_rotation,
+                                   static_cast<int>(std::min(longest, 65536.0)), random));
+    scene.materials.emplace_back(p, scene.covers.back(), Vec2{1, 1});
+  }
 }
 
 // Vertices moved by the materials' heights; where two share the shape, by the first's.
@@ -112,7 +135,7 @@ PreviewScene make_scene(const PreviewParams& params, std::span<const PreviewMate
   if (materials.empty() || materials.size() > 2)
     throw Error("a preview shows 1 or 2 materials, here are {}", materials.size());
   for (const PreviewMaterial& material : materials) check_solid(params, material);
-  PreviewScene scene{params, {}, {}, {}, {}, {}, {}, 1, 0, {}, {}, 0, {}, {}, 1, {}};
+  PreviewScene scene{params, {}, {}, {}, {}, {}, {}, {}, 1, 0, {}, {}, 0, {}, {}, 1, {}};
   const bool moves = params.displacement != 0;
   if (moves && !materials.front().maps.contains("height"))
     throw ConfigError("displacement = {}: the texture has no map 'height'", params.displacement);
@@ -124,10 +147,7 @@ PreviewScene make_scene(const PreviewParams& params, std::span<const PreviewMate
   scene.mesh = with_normals(load_shape(params.shape, longest), params.normals);
   if (moves && !named_shape(params.shape)) scene.mesh = subdivided(std::move(scene.mesh), edge);
   scene.mapping = make_mapping(params, scene.mesh);
-  scene.materials.reserve(materials.size());
-  for (const PreviewMaterial& material : materials)
-    scene.materials.emplace_back(params, material,
-                                 repeats(params, scene.mapping, size_of(material)));
+  add_materials(scene, materials);
   if (moves) displace(scene, edge);
   Mesh traced{scene.positions.empty() ? scene.mesh.positions : scene.positions,
               {},

@@ -18,6 +18,7 @@ struct PreviewScene {
   std::vector<Vec3> positions;  // of its vertices after it; empty: the same
   std::unique_ptr<RayScene> rays;
   MappingOf mapping;
+  std::vector<PreviewMaterial> covers;  // what stochastic tiling made of the materials, if it did
   std::vector<MaterialLookup> materials;
   Camera camera;
   float radius = 1;  // of the ball around the origin that holds the displaced mesh

@@ -101,6 +101,22 @@ void blend_run(std::array<const float*, 3> from, int channels, int count, float*
 
 }  // namespace
 
+TilingLattice make_lattice(const TilingParams& params, Size exemplar, Size result, Tile tile,
+                           Random random) {
+  const TilingLattice lattice(lattice_shape(exemplar, params, result, tile), random);
+  const Size places = lattice.places();
+  // How far apart pieces may lie, and what of their size that is at least. An exemplar of a few
+  // pixels has no room whatever the cell.
+  const int room = places.width + places.height - 2, least = lattice.piece_width() / 4;
+  if (params.cell > TilingParams().cell && room < least)
+    throw Error(
+        "cell = {}: pieces of {}×{} pixels have {}×{} places in an exemplar of {}×{}, so all would "
+        "be nearly the same; choose a smaller cell, or say where the exemplar wraps",
+        params.cell, lattice.piece_width(), lattice.piece_height(), places.width, places.height,
+        exemplar.width, exemplar.height);
+  return lattice;
+}
+
 StochasticTiling::StochasticTiling(const Exemplar& exemplar, const TilingParams& params,
                                    Random random)
     : StochasticTiling(exemplar, params, {}, Tile::none, random) {}
@@ -109,7 +125,7 @@ StochasticTiling::StochasticTiling(const Exemplar& exemplar, const TilingParams&
                                    Tile tile, Random random)
     : params_(params),
       exemplar_(exemplar.image.size()),
-      lattice_(lattice_shape(exemplar_, params, size, tile), random),
+      lattice_(make_lattice(params, exemplar_, size, tile, random)),
       values_(exemplar, params.blend),
       wide_values_(widened(values_.values(), lattice_.piece_width(), tiles_x(params.wraps))),
       wide_prominence_(
@@ -162,9 +178,10 @@ void StochasticTiling::blend_at(const Pieces& pieces, std::array<float, 3> share
 
 // A surface that is turned has its slopes turned with it.
 void StochasticTiling::turn_slopes(const TilingPiece& piece, float* values) const {
-  const auto cosine = static_cast<float>(piece.cosine), sine = static_cast<float>(piece.sine);
+  const auto cosine = static_cast<float>(piece.cosine);
   for (std::size_t c = 0; c < values_.slopes().size(); ++c) {
-    if (!values_.slopes()[c]) continue;
+    if (values_.slopes()[c] == 0) continue;
+    const float sine = static_cast<float>(piece.sine) * values_.slopes()[c];
     const float right = values[c], up = values[c + 1];
     values[c] = cosine * right - sine * up;
     values[c + 1] = sine * right + cosine * up;

@@ -27,6 +27,7 @@ Texture synthesise(const TilingParams& params, const Request& request, const Con
 Cost estimate(const TilingParams& params, const RequestSize& request) {
   check_request<TilingParams>(request);
   const ExemplarSize& exemplar = request.exemplars.front();
+  make_lattice(params, exemplar.size, request.size, request.tile, Random(1));  // it may refuse
   const double in = static_cast<double>(exemplar.size.width) * exemplar.size.height;
   const double out = static_cast<double>(request.size.width) * request.size.height;
   const double bytes_in = 4.0 * exemplar.channels * 4 + 32;  // four copies, and one sorted channel

@@ -65,7 +65,7 @@ struct TilingParams {
               {1, 64}},
         Field{"rotation",
               &P::rotation,
-              "pieces are turned by up to this, either way; normals point up the picture (OpenGL)",
+              "pieces are turned by up to this, either way, and normals with them",
               "degrees",
               {0, 180}},
         Field{"wraps", &P::wraps,
@@ -80,8 +80,8 @@ struct TilingParams {
   }
 };
 
-/// Throws Error for input that check_request() refuses, and for a `period` that is not two numbers
-/// or is given with a `rotation`.
+/// Throws Error for input that check_request() refuses, and for a `period` or `cell` that
+/// make_lattice() (surface/stochastic_tiling.h) does.
 Texture synthesise(const TilingParams& params, const Request& request, const Control& control);
 Cost estimate(const TilingParams& params, const RequestSize& request);
 

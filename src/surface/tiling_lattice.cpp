@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "core/portable_math.h"
 
 namespace gramloom {
@@ -12,15 +13,23 @@ namespace {
 std::int64_t floor_divide(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
 
 // How many places there are for a piece of `length` pixels.
-std::uint32_t places(int side, int length, bool wraps) {
-  return static_cast<std::uint32_t>(wraps ? side : std::max(1, side - length + 1));
+int places(int side, int length, bool wraps) {
+  return wraps ? side : std::max(1, side - length + 1);
 }
 
-// A random whole number from `least` on, of `count`, that is a multiple of `period`, rounded; any,
-// where there is none.
-double random_shift(double least, std::uint32_t count, double period, Random& random) {
+// Wherever a piece lies, a multiple of the period must be among its places.
+void check_period(double period, int places, int length, std::string_view way) {
+  const double needed = std::ceil(period) + (period == std::floor(period) ? 0 : 1);
+  if (places < needed)
+    throw Error(
+        "period = {} {}: pieces of {} pixels have only {} places that way, so no multiple fits "
+        "some of them; choose a smaller cell or a period up to {}",
+        period, way, length, places, places);
+}
+
+// A random whole number from `least` on, of `count`, that is a multiple of `period`, rounded.
+double random_shift(double least, int count, double period, Random& random) {
   const double first = std::ceil(least / period), last = std::floor((least + count - 1) / period);
-  if (last < first) return least + random.below(count);
   const auto multiples = static_cast<std::uint32_t>(last - first) + 1;
   return std::round((first + random.below(multiples)) * period);
 }
@@ -46,6 +55,22 @@ TilingLattice::TilingLattice(const Shape& shape, Random random)
     rows_ = 2 * static_cast<std::int64_t>(std::ceil(shape.result.height / (2 * down_)));
     down_ = static_cast<double>(shape.result.height) / static_cast<double>(rows_);
   }
+  if (shape.rotation > 0) return;
+  check_period(shape.period_x, places().width, piece_width(), "across");
+  check_period(shape.period_y, places().height, piece_height(), "down");
+}
+
+double TilingLattice::piece_radius() const {
+  return std::max(across_, portable::sqrt(across_ * across_ / 4 + down_ * down_));
+}
+
+Size TilingLattice::places() const {
+  const Size from = shape_.exemplar;
+  const bool turned = shape_.rotation > 0;
+  const int across = turned ? static_cast<int>(2 * piece_radius()) + 1 : piece_width();
+  const int down = turned ? across : piece_height();
+  return {gramloom::places(from.width, across, tiles_x(shape_.wraps)),
+          gramloom::places(from.height, down, tiles_y(shape_.wraps))};
 }
 
 std::array<TilingCorner, 3> TilingLattice::around(double x, double y) const {
@@ -85,13 +110,11 @@ TilingPiece TilingLattice::piece(std::int64_t column, std::int64_t row) const {
   const bool wraps_x = tiles_x(shape_.wraps), wraps_y = tiles_y(shape_.wraps);
   if (!(shape_.rotation > 0)) {
     const double left = std::ceil(x - across_ - 0.5), top = std::ceil(y - down_ - 0.5);
-    const auto places_x = places(from.width, piece_width(), wraps_x);
-    const auto places_y = places(from.height, piece_height(), wraps_y);
-    const double x0 = random_shift(-left, places_x, shape_.period_x, random);
-    const double y0 = random_shift(-top, places_y, shape_.period_y, random);
+    const double x0 = random_shift(-left, places().width, shape_.period_x, random);
+    const double y0 = random_shift(-top, places().height, shape_.period_y, random);
     return {1, 0, x0 - right, y0 - down};
   }
-  const double radius = std::max(across_, portable::sqrt(across_ * across_ / 4 + down_ * down_));
+  const double radius = piece_radius();
   const double middle_x = disc_middle(from.width, radius, wraps_x, random);
   const double middle_y = disc_middle(from.height, radius, wraps_y, random);
   const double angle = shape_.rotation * portable::pi / 180 * (2.0 * random.uniform() - 1);

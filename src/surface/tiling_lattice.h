@@ -41,6 +41,7 @@ class TilingLattice {
     double rotation = 0;                // degrees
     double period_x = 1, period_y = 1;  // pieces that are not turned move by multiples, rounded
   };
+  /// Throws Error for a period of which no multiple fits some of the pieces.
   TilingLattice(const Shape& shape, Random random);
 
   /// Sides of a triangle: along a row, and between rows.
@@ -50,11 +51,17 @@ class TilingLattice {
   int piece_width() const { return static_cast<int>(2 * across_) + 1; }
   int piece_height() const { return static_cast<int>(2 * down_) + 1; }
 
+  /// How many places of the exemplar a piece may come from, across and down; of turned pieces,
+  /// whose places are not whole pixels, about so many.
+  Size places() const;
+
   /// Of a point in pixels.
   std::array<TilingCorner, 3> around(double x, double y) const;
   TilingPiece piece(std::int64_t column, std::int64_t row) const;
 
  private:
+  double piece_radius() const;  // of the disc that holds a piece however it is turned
+
   Shape shape_;
   Random random_;
   double across_, down_;

@@ -146,7 +146,7 @@ TilingValues::Table TilingValues::take_ranks(int channel) {
 
 TilingValues::Part TilingValues::take_normals(const Image& exemplar, const Layer& layer) {
   Part part{layer, {}, {}, {}, {0, 0}, {0, 0}, {0, 0}};
-  slopes_[static_cast<std::size_t>(layer.first)] = true;
+  slopes_[static_cast<std::size_t>(layer.first)] = layer.green == GreenAxis::up ? 1.0f : -1.0f;
   std::array<double, 2> sum{};
   const auto for_each_pixel = [&](auto&& work) {
     for (int y = 0; y < exemplar.height; ++y)

@@ -33,9 +33,10 @@ class TilingValues {
   const Image& values() const { return values_; }
   /// TileBlend::contrast: what a pixel's weights are multiplied by; else empty.
   const Image& prominence() const { return prominence_; }
-  /// For each channel whether it and the next one are the slopes of a normal, right and up, which
-  /// turn with a piece that is turned.
-  const std::vector<bool>& slopes() const { return slopes_; }
+  /// For each channel: 1 where it and the next one are the slopes of a normal, right and up, which
+  /// turn with a piece that is turned; −1 where they are right and down, as the layer's green says;
+  /// else 0.
+  const std::vector<float>& slopes() const { return slopes_; }
   /// Blended pixels become the exemplar's kind, in its range.
   void restore(float* pixels, int count) const;
 
@@ -60,7 +61,7 @@ class TilingValues {
 
   TileBlend blend_;
   Image values_, prominence_;
-  std::vector<bool> slopes_;
+  std::vector<float> slopes_;
   std::vector<Part> parts_;
   ChannelRange range_;
 };

@@ -97,6 +97,16 @@ TEST_F(Check, StartPicturesAndWeightsOfOtherShape) {
               "w.safetensors: tensor 'features.0.weight' has shape [1], the network needs", true);
 }
 
+TEST_F(Check, PeriodsAndCellsThatLeavePiecesNoChoice) {
+  const std::string tiling = "[[method]]\nname = 'm'\nkind = 'tiling'\n";
+  expect_both(
+      "size = 64\n" + exemplar("e.png") + tiling + "period = [20, 8]\n",
+      "period = 20 across: pieces of 17 pixels have only 16 places that way, so no multiple "
+      "fits some of them; choose a smaller cell or a period up to 16");
+  expect_both("size = 64\n" + exemplar("e.png") + tiling + "cell = 0.5\n",
+              "cell = 0.5: pieces of 33×28 pixels have 1×5 places", true);
+}
+
 TEST_F(Check, EstimatesWithScoresDiversityAndTheProgramItself) {
   const std::string text = run({"check", "c.toml"}).output;
   EXPECT_NE(text.find("e/q diversity"), std::string::npos) << text;

@@ -49,7 +49,7 @@ TEST_F(ExportCommand, GltfHasTheMapsAndGreenUp) {
   for (const Json& image : document["images"])
     EXPECT_TRUE(fs::exists((folder_ / "x" / job_).parent_path() / image["uri"].get<std::string>()));
   const Image before = read_image(folder_ / "out/m" / (job_ + "_normal.png")).image;
-  const Image after = read_image(folder_ / "x" / (job_ + "_normal.png")).image;
+  const Image after = read_image(folder_ / "x" / (job_ + "_normal_texture.png")).image;
   ASSERT_EQ(after.size(), before.size());
   for (std::size_t i = 1; i < after.pixels.size(); i += 3)
     ASSERT_NEAR(after.pixels[i], 1 - before.pixels[i], 0.01f);
@@ -58,6 +58,24 @@ TEST_F(ExportCommand, GltfHasTheMapsAndGreenUp) {
   const Image roughness = read_image(folder_ / "out/m" / (job_ + "_roughness.png")).image;
   for (std::size_t i = 0; i < roughness.pixels.size(); ++i)
     ASSERT_EQ(packed.pixels[3 * i + 1], roughness.pixels[i]);
+}
+
+TEST_F(ExportCommand, GreenIsToldByTheMapsFileToo) {
+  fs::copy_file(folder_ / "n.png", folder_ / "n_dx.png");
+  write_text(folder_ / "m.toml",
+             "size = [40, 24]\ntile = 'both'\n[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"
+             "maps = { bend = 'n_dx.png' }\n[[method]]\nname = 'q'\nkind = 'quilting'\n"
+             "patch_size = 8\n");
+  ASSERT_EQ(run({"run", "m.toml", "--quiet", "--output", "dx"}).exit_code, 0);
+  for (const auto& [target, made] :
+       {std::pair{"gltf", "e/q/seed1_normal_texture.png"}, {"materialx", "e/q/seed1_normal.png"}}) {
+    const Outcome outcome = run({"export", "dx", "--target", target, "--output", target});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+    const Image before = read_image(folder_ / "dx/e/q/seed1_bend.png").image;
+    const Image after = read_image(folder_ / target / made).image;
+    for (std::size_t i = 1; i < after.pixels.size(); i += 3)
+      ASSERT_NEAR(after.pixels[i], 1 - before.pixels[i], 0.01f) << target;
+  }
 }
 
 // The Khronos validator, where the environment says how to start it ("node validate.js").
@@ -111,6 +129,24 @@ TEST_F(ExportCommand, FilesOfTheUserStayAndExportsAreReplaced) {
   EXPECT_THAT(refused.errors, HasSubstr("has files that no export made"));
   for (const auto* target : {"gltf", "materialx", "gltf"})
     EXPECT_EQ(run({"export", "out/m", "--target", target, "--output", "x"}).exit_code, 0);
+}
+
+TEST_F(ExportCommand, BothTargetsMayShareAFolder) {
+  const auto texts = [&] {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / "x"))
+      if (entry.is_regular_file()) all[entry.path().string()] = read_text(entry.path());
+    return all;
+  };
+  for (const auto& [first, second] : {std::pair{"gltf", "materialx"}, {"materialx", "gltf"}}) {
+    fs::remove_all(folder_ / "x");
+    ASSERT_EQ(run({"export", "out/m", "--target", first, "--output", "x"}).exit_code, 0);
+    const auto before = texts();
+    ASSERT_EQ(run({"export", "out/m", "--target", second, "--output", "x"}).exit_code, 0);
+    const auto after = texts();
+    EXPECT_GT(after.size(), before.size());
+    for (const auto& [name, text] : before) EXPECT_TRUE(after.at(name) == text) << name;
+  }
 }
 
 TEST_F(ExportCommand, ADamagedPictureDoesNotStopTheOthers) {

@@ -1,5 +1,9 @@
 #include <gmock/gmock.h>
 
+#include <chrono>
+#include <csignal>
+#include <thread>
+
 #include "cli/process.h"
 #include "cli/workspace.h"
 
@@ -34,6 +38,37 @@ TEST_F(PreviewCommand, ShowsATextureWithTheMapsBesideIt) {
   EXPECT_EQ(made().channels, 3);
   EXPECT_EQ(preview({"wall.png", "--bump", "0", "--output", "flat.png"}).exit_code, 0);
   EXPECT_NE(made(), made("flat.png"));
+}
+
+TEST_F(PreviewCommand, GreenIsAsTheNormalsOwnFileSays) {
+  Image up(32, 32, 3, 0.5f), down = up;
+  for (std::size_t i = 1; i < up.pixels.size(); i += 3) {
+    up.pixels[i] = 0.5f + 0.3f;
+    down.pixels[i] = 0.5f - 0.3f;
+    up.pixels[i + 1] = down.pixels[i + 1] = 0.5f + 0.4f;
+  }
+  write_image(folder_ / "up.png", up, {PixelType::uint16, "", {}});
+  write_image(folder_ / "wall_dx.png", down, {PixelType::uint16, "", {}});
+  const auto shown = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), "wall.png");
+    more.insert(more.end(), {"--shape", "plane", "--output", "x.png"});
+    EXPECT_EQ(preview(more).exit_code, 0);
+    return made();
+  };
+  const Image wanted = shown({"--map", "normal=up.png"});
+  EXPECT_EQ(shown({"--map", "normal=wall_dx.png"}), wanted);
+  EXPECT_NE(shown({"--map", "normal=wall_dx.png", "--green", "up"}), wanted);
+  const std::vector<std::string> maps{"maps", "wall_height.png", "--normal", "--strength",
+                                      "8",    "--pixel-type",    "uint16"};
+  ASSERT_EQ(run(maps).exit_code, 0);
+  const Image made_up = shown({});
+  auto down_too = maps;
+  down_too.insert(down_too.end(), {"--green", "down"});
+  ASSERT_EQ(run(down_too).exit_code, 0);
+  const Image made_down = shown({});
+  for (std::size_t i = 0; i < made_up.pixels.size(); ++i)
+    ASSERT_NEAR(made_down.pixels[i], made_up.pixels[i], 1.01f / 255)
+        << "maps that the program made say it in their file";
 }
 
 TEST_F(PreviewCommand, TheColoursOfAMaterialFindItsMaps) {
@@ -72,7 +107,7 @@ TEST_F(PreviewCommand, ProceduralTexturesByName) {
 TEST_F(PreviewCommand, AMeshOfAFile) {
   write_text(folder_ / "m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
   const Outcome bare = preview({"wall.png", "--shape", "m.obj", "--output", "x.png"});
-  EXPECT_EQ(bare.exit_code, 1);
+  EXPECT_EQ(bare.exit_code, 2);
   EXPECT_THAT(bare.errors, HasSubstr("m.obj: the mesh has no texture coordinates"));
   EXPECT_EQ(preview({"wall.png", "--shape", "m.obj", "--mapping", "planar", "--output", "x.png"})
                 .exit_code,
@@ -80,28 +115,99 @@ TEST_F(PreviewCommand, AMeshOfAFile) {
 }
 
 TEST_F(PreviewCommand, MistakesAreOneLine) {
-  const auto refused = [&](std::vector<std::string> arguments, int code, const std::string& says) {
-    arguments.insert(arguments.end(), {"--output", "y.png", "--quiet"});
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& says,
+                           const std::string& output = "y.png") {
+    arguments.insert(arguments.end(), {"--output", output, "--quiet"});
     const Outcome outcome = preview(arguments);
-    EXPECT_EQ(outcome.exit_code, code) << outcome.errors;
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.errors;
     EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
     EXPECT_THAT(outcome.errors, HasSubstr(says));
-    EXPECT_FALSE(exists(folder_ / "y.png"));
+    EXPECT_FALSE(exists(folder_ / output) && output.starts_with("y"));
   };
-  refused({"wall.png", "--shape", "spher"}, 2, "did you mean 'sphere'?");
-  refused({"wall.png", "--shape", "none.obj"}, 1, "none.obj");
-  refused({"none.png"}, 1, "none.png");
-  refused({"wall.png", "--environment", "wall.png", "--environment-kind", "latlong"}, 1,
+  refused({"wall.png", "--shape", "spher"}, "did you mean 'sphere'?");
+  refused({"wall.png", "--shape", "none.obj"}, "none.obj");
+  refused({"none.png"}, "none.png");
+  refused({"wall.png", "--environment", "wall.png", "--environment-kind", "latlong"},
           "twice as wide as high");
-  refused({"e.png", "--displacement", "0.1"}, 2, "the texture has no map 'height'");
-  refused({"wall.png", "--displacement", "9"}, 2, "--displacement: 9 is not");
-  refused({"wall.png", "--map", "gloss=wall_height.png"}, 1, "unknown map 'gloss'");
-  refused({"wall.png", "e.png", "wall.png"}, 1, "1 or 2 materials, here are 3");
-  const std::string before = file("wall.png");
-  EXPECT_EQ(preview({"wall.png", "--output", "wall.png"}).exit_code, 2);
-  EXPECT_EQ(file("wall.png"), before);
+  refused({"wall.png", "--environment", "wall.png", "--environment", "wall.png"},
+          "environment has 2 files");
+  refused({"e.png", "--displacement", "0.1"}, "the texture has no map 'height'");
+  refused({"marble", "--mapping", "solid", "--displacement", "0.1"},
+          "a solid has no height map to displace it");
+  refused({"wall.png", "--displacement", "9"}, "--displacement: 9 is not");
+  refused({"wall.png", "--map", "gloss=wall_height.png"}, "unknown map 'gloss'");
+  refused({"wall.png", "--map", "wall_height.png"}, "needed is NAME=FILE");
+  refused({"wall.png", "e.png", "wall.png"}, "1 or 2 materials, here are 3");
   write_image(folder_ / "small_height.png", Image(8, 8, 1), {});
-  refused({"wall.png", "--map", "roughness=small_height.png"}, 1, "they must be alike");
+  refused({"wall.png", "--map", "roughness=small_height.png"}, "they must be alike");
+  // What has no effect.
+  refused({"wall.png", "--set", "scale=3"}, "--set scale=3: has no effect, wall.png is no");
+  refused({"wall.png", "e.png", "--mapping", "solid", "--map", "height=wall_height.png"},
+          "--map height: has no effect on a solid");
+  refused({"brick", "--map", "height=wall_height.png"},
+          "--map height: has no effect on the procedural texture 'brick'");
+  // Where the picture cannot be written.
+  refused({"wall.png"}, "--output y.xyz: ", "y.xyz");
+  refused({"wall.png", "--background", "transparent"}, "--output y.jpg: ", "y.jpg");
+  refused({"wall.png"}, "there is no folder none", "none/y.png");
+  create_directories(folder_ / "folder.png");
+  refused({"wall.png"}, "is a folder", "folder.png");
+  const std::string before = file("wall.png");
+  refused({"wall.png"}, "would write over wall.png", "wall.png");
+  EXPECT_EQ(file("wall.png"), before);
+}
+
+TEST_F(PreviewCommand, SixFacesAreASkyBox) {
+  Image strip(96, 16, 3);
+  std::vector<std::string> command{"wall.png", "--metalness", "1", "--roughness", "0"};
+  std::vector<std::string> whole = command;
+  for (int face = 0; face < 6; ++face) {
+    Image picture(16, 16, 3);
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 16; ++x)
+        for (int c = 0; c < 3; ++c)
+          strip.at(16 * face + x, y)[c] = picture.at(x, y)[c] =
+              static_cast<float>((face + 1) * (c + 2) * (x + 3) % 17) / 17;
+    const std::string name = "face" + std::to_string(face) + ".png";
+    write_image(folder_ / name, picture, {});
+    command.insert(command.end(), {"--environment", name});
+  }
+  write_image(folder_ / "strip.png", strip, {});
+  whole.insert(whole.end(), {"--environment", "strip.png", "--output", "whole.png"});
+  command.insert(command.end(), {"--output", "x.png"});
+  EXPECT_EQ(preview(whole).exit_code, 0);
+  const Outcome outcome = preview(command);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(made(), made("whole.png"));
+  write_image(folder_ / "face3.png", Image(16, 8, 3), {});
+  const Outcome refused = preview(command);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("face 4 of the sky box has 16×8 pixels"));
+}
+
+TEST_F(PreviewCommand, RepeatsWithoutRepetition) {
+  const std::vector<std::string> floor{"e.png", "--shape", "plane", "--repeat", "6"};
+  auto straight = floor, stochastic = floor;
+  straight.insert(straight.end(), {"--output", "straight.png"});
+  stochastic.insert(stochastic.end(),
+                    {"--stochastic", "--stochastic-rotation", "90", "--output", "x.png"});
+  EXPECT_EQ(preview(straight).exit_code, 0);
+  const Outcome outcome = preview(stochastic);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_NE(made(), made("straight.png"));
+}
+
+// One Ctrl-C ends a preview, and leaves nothing of it.
+TEST_F(PreviewCommand, AnInterruptedOneLeavesNoFile) {
+  Process process(folder_, {"preview", "wall.png", "--size", "4096", "--samples", "8", "--quiet",
+                            "--output", "x.png"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  process.signal(SIGINT);
+  const Outcome outcome = process.wait();
+  EXPECT_EQ(outcome.exit_code, 130) << outcome.errors;
+  EXPECT_THAT(outcome.errors, HasSubstr("interrupted; nothing is written"));
+  for (const auto& entry : std::filesystem::directory_iterator(folder_))
+    EXPECT_EQ(entry.path().filename().string().find("x.png"), std::string::npos) << entry.path();
 }
 
 TEST_F(PreviewCommand, AConfigShowsEveryResult) {
@@ -120,6 +226,15 @@ TEST_F(PreviewCommand, AConfigShowsEveryResult) {
   const Outcome again = run({"run", "p.toml", "--quiet", "--resume", "--set", "preview.samples=2"});
   EXPECT_EQ(again.exit_code, 0) << again.errors;
   EXPECT_EQ(record("procedural/m/seed1", "out/p")->settings.at("preview").at("samples"), 2);
+  // Surroundings of one file or of six.
+  write_image(folder_ / "sky.png", Image(16, 16, 3, 0.7f), {});
+  const std::string six = "['sky.png', 'sky.png', 'sky.png', 'sky.png', 'sky.png', 'sky.png']";
+  for (const std::string& sky : {std::string("'sky.png'"), six}) {
+    const Outcome lit = run({"run", "p.toml", "--quiet", "--set", "preview.environment=" + sky});
+    EXPECT_EQ(lit.exit_code, 0) << lit.errors;
+    EXPECT_THAT(record("procedural/m/seed1", "out/p")->files,
+                testing::Contains("seed1_preview.png"));
+  }
   const Outcome bad = run({"run", "p.toml", "--set", "preview.shape=spher"});
   EXPECT_EQ(bad.exit_code, 2);
   EXPECT_THAT(bad.errors, HasSubstr("did you mean 'sphere'?"));

@@ -209,9 +209,83 @@ TEST_F(Maps, KindsAreGuessedFromNamesFilesAndValues) {
   EXPECT_EQ(kind("orm", "a.png", colours), MapKind::scalar);
   EXPECT_EQ(kind("abnormal", "a.png", grey), MapKind::scalar);
   EXPECT_EQ(kind_of_map("normal", {"a.png", MapKind::scalar, {}}, normals), MapKind::scalar);
-  EXPECT_EQ(green_of_map("n", {"Bricks_NormalDX.jpg", {}, {}}), GreenAxis::down);
-  EXPECT_EQ(green_of_map("n", {"Bricks_NormalGL.jpg", {}, {}}), GreenAxis::up);
-  EXPECT_EQ(green_of_map("n", {"Bricks_NormalDX.jpg", {}, GreenAxis::up}), GreenAxis::up);
+}
+
+TEST_F(Maps, WhereGreenPointsIsToldByTheConfigNamesAndTheFileItself) {
+  const auto green = [](const MapFile& file, const Metadata& metadata = {}) {
+    return green_of_map("n", file, metadata);
+  };
+  const Metadata down = green_metadata(GreenAxis::down);
+  EXPECT_EQ(green({"n.jpg", {}, {}}), GreenAxis::up);
+  EXPECT_EQ(green({"Bricks_NormalDX.jpg", {}, {}}), GreenAxis::down);
+  EXPECT_EQ(green({"n.png", {}, {}}, down), GreenAxis::down);
+  EXPECT_EQ(green({"Bricks_NormalGL.jpg", {}, {}}, down), GreenAxis::up) << "the name first";
+  EXPECT_EQ(green({"Bricks_NormalDX.jpg", {}, GreenAxis::up}, down), GreenAxis::up);
+}
+
+// Normals of waves, with green up or down, as a map of e.png.
+class NormalsOfMaps : public Maps {
+ protected:
+  NormalsOfMaps() {
+    Image normals(read_image(folder_ / "e.png").image.size(), 3);
+    for (int y = 0; y < normals.height; ++y)
+      for (int x = 0; x < normals.width; ++x) {
+        const float slope[] = {0.5f * std::sin(0.4f * static_cast<float>(x)),
+                               0.6f * std::sin(0.3f * static_cast<float>(y)) + 0.2f};
+        const float length = std::hypot(slope[0], slope[1], 1.0f);
+        float* n = normals.at(x, y);
+        n[0] = 0.5f + slope[0] / length / 2;
+        n[1] = 0.5f + slope[1] / length / 2;
+        n[2] = 0.5f + 1 / length / 2;
+      }
+    write_image(folder_ / "up.png", normals, {PixelType::uint16, "", {}});
+    for (std::size_t i = 1; i < normals.pixels.size(); i += 3)
+      normals.pixels[i] = 1 - normals.pixels[i];
+    write_image(folder_ / "wall_dx.png", normals, {PixelType::uint16, "", {}});
+  }
+  static std::string config(const std::string& map, const std::string& method) {
+    return "size = [40, 24]\n[[exemplar]]\nname = 'e'\nimage = 'e.png'\nmaps = { " + map +
+           " }\n[[method]]\nname = 'm'\n" + method;
+  }
+  Image preview() const { return read_image(out("e/m/seed1_preview.png")).image; }
+};
+
+const std::string quilted = "kind = 'quilting'\npatch_size = 8\n";
+
+TEST_F(NormalsOfMaps, RecordAndFilesSayWhereGreenPoints) {
+  run_text(config("a = 'wall_dx.png', b = 'up.png', height = 'h.png'", quilted) +
+           "[surface]\nnormal = true\ngreen = 'down'\n");
+  EXPECT_EQ(record("e/m/seed1").normals,
+            (std::map<std::string, GreenAxis>{
+                {"a", GreenAxis::down}, {"b", GreenAxis::up}, {"normal", GreenAxis::down}}));
+  const auto green = [&](const std::string& file) {
+    return green_of_map("n", {"n.png", {}, {}}, read_image(out(file)).metadata);
+  };
+  for (const std::string file : {"e/m/seed1_a.png", "e/m/seed1_normal.png", "e/exemplar_a.png"})
+    EXPECT_EQ(green(file), GreenAxis::down) << file;
+  EXPECT_EQ(green("e/m/seed1_b.png"), GreenAxis::up);
+}
+
+// The same surface in both conventions is the same surface: to previews, scores and tiling.
+TEST_F(NormalsOfMaps, BothConventionsAreOneSurface) {
+  const std::string shown =
+      "[preview]\nshape = 'plane'\nsize = [48, 32]\nsamples = 1\nrepeat = 1\n";
+  for (const std::string& method :
+       {quilted, std::string("kind = 'tiling'\nrotation = 90\nwraps = 'both'\n")}) {
+    run_text(config("n = 'up.png'", method) + shown);
+    const Image up = preview(), up_map = read_image(out("e/m/seed1_n.png")).image;
+    const auto scores = record("e/m/seed1").map_metrics->at("n");
+    run_text(config("n = 'wall_dx.png'", method) + shown);
+    const Image down = preview(), down_map = read_image(out("e/m/seed1_n.png")).image;
+    for (std::size_t i = 0; i < up_map.pixels.size(); ++i)
+      ASSERT_NEAR(i % 3 == 1 ? 1 - down_map.pixels[i] : down_map.pixels[i], up_map.pixels[i], 1e-4);
+    for (std::size_t i = 0; i < up.pixels.size(); ++i)
+      ASSERT_NEAR(down.pixels[i], up.pixels[i], 1.01f / 255);
+    const auto of_down = record("e/m/seed1").map_metrics->at("n");
+    for (const auto& [name, value] : of_down) EXPECT_NEAR(*value, *scores.at(name), 0.01) << name;
+    run_text(config("n = { image = 'wall_dx.png', green = 'up' }", method) + shown);
+    EXPECT_NE(preview(), down) << "the config's word counts";
+  }
 }
 
 // Signed normals in floats: after a method that mixes and after one that copies, they are of unit

@@ -1,8 +1,9 @@
 // [surface]: maps of every result that has a height, made by the job and written beside it.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "jobs/plan.h"
 #include "jobs/run_folder.h"
+#include "runs/job_maps.h"
 #include "surface/normal_map.h"
 
 namespace gramloom {
@@ -71,6 +72,41 @@ TEST_F(SurfaceOfJobs, ExemplarsHeightsToo) {
             (std::vector<std::string>{"seed1.png", "seed1_height.png", "seed1_normal.png"}));
   EXPECT_EQ(read_image(out("e/b/seed1_normal.png")).encoding.pixel_type, PixelType::uint16);
   EXPECT_TRUE(record("e/b/seed1").map_metrics->at("height").contains("value_distance"));
+}
+
+// A map under another name is the height where the config says so, to maps and previews alike.
+TEST_F(SurfaceOfJobs, TheHeightMayHaveAnotherName) {
+  const std::string shown =
+      "[preview]\nshape = 'plane'\nsize = [40, 30]\nsamples = 1\ndisplacement = 0.1\n";
+  std::string text = exemplar(1);
+  ASSERT_EQ(run_text(text + normal + shown).done, 1);
+  const Image wanted = read_image(out("e/b/seed1_normal.png")).image;
+  const Image preview = read_image(out("e/b/seed1_preview.png")).image;
+  text.replace(text.find("height ="), 8, "relief =");
+  ASSERT_EQ(run_text(text + normal + "height = 'relief'\n" + shown).done, 1);
+  EXPECT_EQ(read_image(out("e/b/seed1_normal.png")).image, wanted);
+  EXPECT_EQ(read_image(out("e/b/seed1_preview.png")).image, preview);
+  EXPECT_EQ(record("e/b/seed1").settings["surface"]["height"], "relief");
+  EXPECT_EQ(material_map_of(record("e/b/seed1"), "relief"), "height");
+  EXPECT_THAT(refusal(text + normal + "height = 'depth'\n"),
+              testing::HasSubstr("no exemplar has a map called 'depth'"));
+  EXPECT_EQ(run_text(stone + normal + "height = 'relief'\n").done, 2)
+      << "procedural ones have theirs";
+  EXPECT_TRUE(fs::exists(out("procedural/stone/seed1_normal.png")));
+}
+
+TEST_F(SurfaceOfJobs, PlansKnowWhatMapsAndPreviewsTake) {
+  const auto planned = [&](const std::string& more) {
+    return make_plan(parse_config(stone + more, folder_ / "c.toml")).jobs.front().finishing;
+  };
+  EXPECT_EQ(planned("").seconds, 0);
+  const Cost maps = planned(normal), preview = planned("[preview]\n"),
+             fine = planned("[preview]\nsamples = 8\n"), all = planned(normal + "[preview]\n");
+  EXPECT_GT(maps.seconds, 0);
+  EXPECT_GT(maps.bytes, 0);
+  EXPECT_GT(preview.seconds, 0.5);
+  EXPECT_GT(fine.seconds, 2 * preview.seconds);
+  EXPECT_DOUBLE_EQ(all.seconds, maps.seconds + preview.seconds);
 }
 
 TEST_F(SurfaceOfJobs, MistakesAreOneLineWithTheirPlace) {

@@ -110,6 +110,44 @@ TEST_F(PageData, HoldsTheMapsOfAnExemplar) {
   EXPECT_EQ(white, 1.0f) << "its own range, not the picture's";
 }
 
+// What the lit view of a job or exemplar is told of green.
+TEST_F(PageData, NormalsPointAsTheRecordSays) {
+  write_run(
+      {{"brick/q/seed1", {{"status", "done"}}}},
+      {{"settings",
+        {{"exemplar", {{{"name", "brick"}, {"image", "b.png"}, {"maps", {{"n", "b_dx.png"}}}}}}}}});
+  write_job("brick/q/seed1");
+  for (const std::string name : {"brick/exemplar", "brick/exemplar_n", "brick/q/seed1_n"})
+    write_image(path() / (name + ".png"), Image(4, 3, 3, 0.5f), {});
+  const auto green = [&](const Json& shown) {
+    const std::string text = read_text(path() / shown["view"].get<std::string>());
+    EXPECT_THAT(text, HasSubstr("\"normal\":"));
+    return text.find("\"green\":\"down\"") != std::string::npos ? "down" : "up";
+  };
+  for (const std::string word : {"down", "up"}) {
+    fs::remove_all(path() / "page");
+    JobRecord record;
+    record.exemplar = "brick";
+    record.method = "q";
+    record.status = Status::done;
+    record.settings = Json::object();
+    record.files = {"seed1.png", "seed1_n.png"};
+    record.normals = {{"n", word == "down" ? GreenAxis::down : GreenAxis::up}};
+    write_record(path() / "brick/q/seed1.json", record);
+    const Json data = read();
+    EXPECT_EQ(green(data["jobs"][0]), word);
+    EXPECT_EQ(green(data["exemplars"][0]), word);
+  }
+  fs::remove_all(path() / "page");
+  write_job("brick/q/seed1",
+            {{"files", {"seed1.png", "seed1_n.png"}},
+             {"settings",
+              {{"exemplar", {{"maps", {{"n", {{"image", "b_dx.png"}, {"kind", "normal"}}}}}}}}}});
+  const Json old = read();
+  EXPECT_EQ(green(old["jobs"][0]), "down") << "a record of before: as its settings say";
+  EXPECT_EQ(green(old["exemplars"][0]), "down");
+}
+
 TEST_F(PageData, HasEveryMetricWithItsDirection) {
   write_run(Json::object());
   const Json list = read()["metrics"];

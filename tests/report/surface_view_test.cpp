@@ -62,7 +62,8 @@ TEST_F(SurfaceViews, SmallFilesAreTheSameBytesAndHeightsHave16Bits) {
     height.pixels[i] = 3 + static_cast<float>(i) / 50;
   write_image(folder_ / "c.png", colour, {});
   write_image(folder_ / "h.exr", height, {PixelType::float32, "", {}});
-  const Json found = data({{{"colour", "c.png"}, {"height", "h.exr"}}, 1, 8, true, Tile::x});
+  const Json found =
+      data({{{"colour", "c.png"}, {"height", "h.exr"}}, 1, 8, GreenAxis::down, Tile::x});
   EXPECT_EQ(found["tile"], "x");
   EXPECT_EQ(found["green"], "down");
   EXPECT_EQ(picture(found["maps"]["colour"]), read_image(folder_ / "c.png").image);
@@ -85,16 +86,34 @@ TEST_F(SurfaceViews, LargePicturesAreReduced) {
   EXPECT_EQ(picture(found["maps"]["normal"]).size(), (Size{512, 256}));
 }
 
+TEST_F(SurfaceViews, SignedNormalsOfFloatsAreShownAsColours) {
+  Image normals(8, 4, 3);
+  for (std::size_t i = 0; i < normals.pixels.size(); i += 3) {
+    normals.pixels[i] = -0.6f;
+    normals.pixels[i + 2] = 0.8f;
+  }
+  write_image(folder_ / "c.png", Image(8, 4, 3), {});
+  write_image(folder_ / "n.exr", normals, {PixelType::float32, "", {}});
+  const Image shown = picture(data({{{"colour", "c.png"}, {"normal", "n.exr"}}})["maps"]["normal"]);
+  EXPECT_NEAR(shown.pixels[0], 0.2f, 0.003f);
+  EXPECT_NEAR(shown.pixels[1], 0.5f, 0.003f);
+  EXPECT_NEAR(shown.pixels[2], 0.9f, 0.003f);
+}
+
 TEST_F(SurfaceViews, AreMadeAgainOnlyWhenAFileIsNewer) {
   write_image(folder_ / "c.png", Image(4, 4, 3), {});
   const SurfaceView view{{{"colour", "c.png"}}};
   const fs::path script = folder_ / surface_view_file(folder_, "e/q/seed1", view);
-  write_text(script, "kept");
+  const std::string kept = read_text(script) + "// kept";
+  write_text(script, kept);
   surface_view_file(folder_, "e/q/seed1", view);
-  EXPECT_EQ(read_text(script), "kept");
+  EXPECT_EQ(read_text(script), kept);
   fs::last_write_time(folder_ / "c.png", fs::last_write_time(script) + std::chrono::seconds(2));
   surface_view_file(folder_, "e/q/seed1", view);
-  EXPECT_NE(read_text(script), "kept");
+  EXPECT_NE(read_text(script), kept);
+  write_text(script, kept);
+  surface_view_file(folder_, "e/q/seed1", {{{"colour", "c.png"}}, 1, 8, GreenAxis::down});
+  EXPECT_NE(read_text(script), kept) << "one of before knew no green";
 }
 
 TEST_F(SurfaceViews, AFileThatIsNotThereIsAnError) {

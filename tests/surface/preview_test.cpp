@@ -289,8 +289,10 @@ TEST(Preview, AFlatNormalMapChangesNothingAndATiltedOneTurnsTheLight) {
   EXPECT_NEAR(with_normal(1 - half, 0.5f, half), 0, 1e-3f);  // at right angles to it
   p.light = {180, 45};                                       // from behind, where v grows
   EXPECT_NEAR(with_normal(0.5f, half, half), 1, 1e-3f);
-  p.green = GreenAxis::down;
+  m.green = GreenAxis::down;
   EXPECT_NEAR(with_normal(0.5f, half, half), 0, 1e-3f);
+  p.green = GreenAxis::up;
+  EXPECT_NEAR(with_normal(0.5f, half, half), 1, 1e-3f) << "the params first";
 }
 
 TEST(Preview, ABumpIsTheNormalOfItsHeight) {
@@ -309,6 +311,56 @@ TEST(Preview, ABumpIsTheNormalOfItsHeight) {
   p.bump = 1;
   const Vec3 normal = normalised({-0.5f, 1, 0});
   EXPECT_NEAR(render(p, m).at(48, 48)[0], dot(normal, direction_of(90, 45)), 2e-3f);
+}
+
+// A row of squares that repeat is the same after one of them; covered stochastically it is not.
+TEST(Preview, AStochasticFloorHasNoPeriod) {
+  PreviewParams p = lit_ball();
+  p.shape = "plane";
+  p.view = {0, 90};
+  p.light = {0, 90};
+  p.size = {256, 256};
+  p.repeat = {4};
+  PreviewMaterial m;
+  m.colour = Image(48, 48, 3);
+  std::vector<float> spots(16 * 16);
+  Random random(1);
+  for (float& spot : spots) spot = random.uniform();
+  for (int y = 0; y < 48; ++y)
+    for (int x = 0; x < 48; ++x)
+      for (int c = 0; c < 3; ++c)
+        m.colour.at(x, y)[c] = spots[static_cast<std::size_t>(16 * (y / 3) + x / 3)];
+  const Camera camera = preview_camera(p);
+  const auto difference = [&] {
+    const Image picture = render(p, m);
+    double sum = 0;
+    for (float z = -0.95f; z < 0.95f; z += 0.1f)
+      for (float x = -0.95f; x < 0.4f; x += 0.1f) {
+        const auto [a, b] = seen_at(camera, {x, 0, z});
+        const auto [c, d] = seen_at(camera, {x + 0.5f, 0, z});  // a quarter of its width
+        sum += static_cast<double>(std::abs(picture.at(a, b)[0] - picture.at(c, d)[0]));
+      }
+    return sum / 19 / 14;
+  };
+  const double repeated = difference();
+  p.stochastic = true;
+  EXPECT_GT(difference(), 2 * repeated + 0.05);
+}
+
+TEST(Preview, AStochasticHeightMovesTheOutlineAndTheSlopesWithIt) {
+  PreviewParams p = lit_ball();
+  p.samples = 2;
+  p.bump = 0;
+  p.displacement = 0.2;
+  const Image straight = render(p, stones());
+  p.stochastic = true;
+  p.stochastic_rotation = 90;
+  const Image covered_ball = render(p, stones());
+  EXPECT_NE(covered_ball, straight);
+  EXPECT_NEAR(covered(covered_ball) / covered(straight), 1, 0.06);
+  set_thread_count(1);
+  EXPECT_EQ(render(p, stones()), covered_ball) << "for any threads";
+  set_thread_count(0);
 }
 
 std::string refusal(const PreviewParams& p, const PreviewMaterial& m = {},
@@ -350,6 +402,14 @@ TEST(Preview, WhatCannotBeShownIsToldInALine) {
   p = good;
   p.mapping = Mapping::solid;
   EXPECT_THAT(refusal(p, stones()), HasSubstr("needs a solid texture or a stack of slices"));
+  p.stochastic = true;
+  EXPECT_EQ(refusal(p, stones()), "stochastic: a solid is not repeated");
+  p = good;
+  p.stochastic_rotation = 5;
+  EXPECT_EQ(refusal(p), "stochastic_rotation = 5: has no effect without stochastic");
+  p.stochastic = true;
+  p.outside = Outside::clamp;
+  EXPECT_EQ(refusal(p), "stochastic: what is outside the picture must be 'tile', not 'clamp'");
 }
 
 }  // namespace

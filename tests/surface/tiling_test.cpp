@@ -149,14 +149,13 @@ TEST(Tiling, HasNoPeriod) {
 }
 
 // A colour, a height that it tells, and the height's normals.
-Exemplar material(Size size) {
+Exemplar material(Size size, GreenAxis green = GreenAxis::up) {
   const Image height = skewed_noise(size, 1);
-  const Image normals =
-      normals_to_colours(normals_from_height(height, 6, Tile::both), GreenAxis::up);
+  const Image normals = normals_to_colours(normals_from_height(height, 6, Tile::both), green);
   Exemplar exemplar{Image(size, 7),
                     {{"", MapKind::colour, 0, 3},
                      {"height", MapKind::scalar, 3, 1},
-                     {"normal", MapKind::normal, 4, 3}}};
+                     {"normal", MapKind::normal, 4, 3, green}}};
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
       const float h = *height.at(x, y);
@@ -186,19 +185,21 @@ TEST(Tiling, MapsStayRegistered) {
 
 // Where hardly anything is blended, normals must be those of the heights beside them.
 TEST(Tiling, NormalsTurnWithTheirPieces) {
-  const Image result =
-      tiled(material({96, 80}),
-            {.blend = TileBlend::contrast, .sharpness = 64, .rotation = 180, .wraps = Tile::both},
-            {300, 280});
-  const Image found = colours_to_normals(extract_channels(result, 4, 3), GreenAxis::up);
-  const Image wanted = normals_from_height(extract_channels(result, 3, 1), 6, Tile::none);
-  std::vector<float> cosines;
-  for (std::size_t i = 0; i < found.pixels.size(); i += 3)
-    cosines.push_back(found.pixels[i] * wanted.pixels[i] +
-                      found.pixels[i + 1] * wanted.pixels[i + 1] +
-                      found.pixels[i + 2] * wanted.pixels[i + 2]);
-  EXPECT_GT(quantile(cosines, 0.5), 0.995);
-  EXPECT_GT(quantile(cosines, 0.2), 0.98);
+  for (const GreenAxis green : {GreenAxis::up, GreenAxis::down}) {
+    const Image result =
+        tiled(material({96, 80}, green),
+              {.blend = TileBlend::contrast, .sharpness = 64, .rotation = 180, .wraps = Tile::both},
+              {300, 280});
+    const Image found = colours_to_normals(extract_channels(result, 4, 3), green);
+    const Image wanted = normals_from_height(extract_channels(result, 3, 1), 6, Tile::none);
+    std::vector<float> cosines;
+    for (std::size_t i = 0; i < found.pixels.size(); i += 3)
+      cosines.push_back(found.pixels[i] * wanted.pixels[i] +
+                        found.pixels[i + 1] * wanted.pixels[i + 1] +
+                        found.pixels[i + 2] * wanted.pixels[i + 2]);
+    EXPECT_GT(quantile(cosines, 0.5), 0.995) << to_word(green);
+    EXPECT_GT(quantile(cosines, 0.2), 0.98) << to_word(green);
+  }
 }
 
 TEST(Tiling, RowsAndPointsAreThoseOfTheWhole) {
@@ -309,6 +310,46 @@ TEST(Tiling, RefusesWhatExcludesItself) {
         tiled(exemplar, {.rotation = 5, .period = {8, 8}}, {40, 40});
       },
       testing::ThrowsMessage<Error>("period and rotation: only one of them may be given"));
+}
+
+TEST(Tiling, RefusesPeriodsAndCellsThatLeavePiecesNoChoice) {
+  const Exemplar exemplar{skewed_noise({32, 40}, 1)};
+  const auto refusal = [&](const TilingParams& params) -> std::string {
+    std::string made, estimated;
+    try {
+      tiled(exemplar, params, {40, 40});
+    } catch (const Error& error) {
+      made = error.what();
+    }
+    try {
+      estimate(params, {.exemplars = {{{32, 40}, 1}}, .size = {40, 40}});
+    } catch (const Error& error) {
+      estimated = error.what();
+    }
+    EXPECT_EQ(made, estimated) << "the estimate knows it";
+    return made;
+  };
+  // Sides of 8: pieces of 17 × 14 pixels, 16 × 27 places.
+  EXPECT_EQ(refusal({.period = {16, 27}}), "");
+  EXPECT_EQ(refusal({.period = {17, 8}}),
+            "period = 17 across: pieces of 17 pixels have only 16 places that way, so no multiple "
+            "fits some of them; choose a smaller cell or a period up to 16");
+  EXPECT_THAT(refusal({.period = {8, 28}}), testing::HasSubstr("period = 28 down: pieces of 14"));
+  EXPECT_EQ(refusal({.period = {14.5, 8}}), "");
+  EXPECT_NE(refusal({.period = {15.5, 8}}), "") << "rounded, 16 apart and one more";
+  EXPECT_EQ(refusal({.wraps = Tile::both, .period = {32, 40}}), "");
+  EXPECT_EQ(refusal({.cell = 0.45}), "");
+  EXPECT_EQ(refusal({.cell = 0.5, .wraps = Tile::both}), "");
+  EXPECT_EQ(refusal({.cell = 0.5}), "") << "it is higher than wide";
+  const Exemplar square{skewed_noise({32, 32}, 1)};
+  for (const double rotation : {0.0, 90.0})
+    EXPECT_THAT(
+        [&] {
+          tiled(square, {.cell = 0.5, .rotation = rotation}, {40, 40});
+        },
+        testing::ThrowsMessage<Error>(
+            testing::HasSubstr("places in an exemplar of 32×32, so all would be nearly the same")))
+        << rotation;
 }
 
 }  // namespace

@@ -137,7 +137,7 @@ Json material_json(const fs::path& stem, const MaterialSet& material, Pictures& 
   }
   json["pbrMetallicRoughness"] = surface;
   if (const auto normals = normals_of(material))
-    json["normalTexture"] = {{"index", pictures.add(with_suffix(stem, "_normal.png"),
+    json["normalTexture"] = {{"index", pictures.add(with_suffix(stem, "_normal_texture.png"),
                                                     normals_to_colours(*normals, GreenAxis::up))}};
   if (material.colour.channels == 4) json["alphaMode"] = "BLEND";
   json["doubleSided"] = true;
@@ -148,8 +148,8 @@ Json material_json(const fs::path& stem, const MaterialSet& material, Pictures& 
 
 std::vector<fs::path> gltf_files(const fs::path& stem) {
   std::vector<fs::path> files;
-  for (const auto* suffix :
-       {".gltf", ".bin", "_base_color.png", "_occlusion_roughness_metalness.png", "_normal.png"})
+  for (const auto* suffix : {".gltf", ".bin", "_base_color.png",
+                             "_occlusion_roughness_metalness.png", "_normal_texture.png"})
     files.push_back(with_suffix(stem, suffix));
   return files;
 }

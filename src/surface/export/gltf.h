@@ -14,9 +14,10 @@ namespace gramloom {
 ///   metalness
 ///                                 in blue, as the standard packs them; without maps there is none,
 ///                                 and roughness is 0.8, metalness 0
-///   stem_normal.png               linear; green points up (OpenGL). Made of the height where there
+///   stem_normal_texture.png       linear; green points up (OpenGL). Made of the height where there
 ///                                 are no normals
 ///   stem.bin                      the two shapes, with tangents
+/// No name is one that `gramloom export --target materialx` writes: both may share a folder.
 /// The standard has no displacement: a height goes into the normals alone. Pictures repeat on axes
 /// on which they tile, and are mirrored on others. Returns the files, the document first. Throws
 /// Error for a file that cannot be written.
