@@ -1,15 +1,18 @@
 // Maps stay maps: what every method of the program's own list makes of an exemplar's layers.
 #include <cmath>
 
+#include "io/image_file.h"
 #include "jobs/every_method.h"
+#include "signal/resize.h"
+#include "source_folder.h"
 
 namespace gramloom {
 namespace {
 
 /// Colours in grain, a height that is a function of them, normals of [0, 1]³ and unit length that
 /// another function tells, and alpha.
-Exemplar layered(Size size) {
-  const Image colours = grain(size, 3);
+Exemplar layered(const Image& colours) {
+  const Size size = colours.size();
   Exemplar exemplar{Image(size, 8),
                     {{"", MapKind::colour, 0, 3},
                      {"alpha", MapKind::alpha, 3, 1},
@@ -30,6 +33,8 @@ Exemplar layered(Size size) {
     }
   return exemplar;
 }
+
+Exemplar layered(Size size) { return layered(grain(size, 3)); }
 
 template <class Params>
 class Layers : public OfMethod<Params> {
@@ -67,8 +72,12 @@ TYPED_TEST(Layers, NormalsComeOutOfUnitLengthAndCopiesKeepTheirBytes) {
 }
 
 /// How far the layers are from the functions that tell them: the root of the mean square over the
-/// height's and the normals' own deviation.
-double disobedience(const Image& image) {
+/// height's deviation.
+struct Disobedience {
+  double height = 0, normal = 0;
+  double worst() const { return std::max(height, normal); }
+};
+Disobedience disobedience(const Image& image) {
   double height = 0, normal = 0, sum = 0, squares = 0;
   const double count = image.width * image.height;
   for (int y = 0; y < image.height; ++y)
@@ -85,18 +94,31 @@ double disobedience(const Image& image) {
       squares += double{p[4]} * double{p[4]};
     }
   const double deviation = std::sqrt(std::max(1e-12, squares / count - sum * sum / count / count));
-  return std::max(std::sqrt(height / count) / deviation, std::sqrt(normal / count) / deviation);
+  return {std::sqrt(height / count) / deviation, std::sqrt(normal / count) / deviation};
 }
 
 TYPED_TEST(Layers, AFunctionOfAnotherStillObeysIt) {
   if (!TestFixture::takes_exemplar) GTEST_SKIP() << "takes no exemplar";
   const Exemplar exemplar = layered({48, 40});
-  ASSERT_LT(disobedience(exemplar.image), 1e-5);
+  ASSERT_LT(disobedience(exemplar.image).worst(), 1e-5);
   const Texture texture = this->make(exemplar);
   // Whole pixels keep it; channels that are made by themselves keep what is linear of it, and an
   // optimiser is on its way there after a dozen steps.
   const double limit = TestFixture::copies ? 1e-5 : TestFixture::is_neural ? 0.35 : 0.1;
-  EXPECT_LT(disobedience(texture.image), limit);
+  EXPECT_LT(disobedience(texture.image).worst(), limit);
+}
+
+// With a preset's own number of steps, on a picture of stones. Measured, in deviations of the
+// height: 0.42 for it and 0.22 for the normals; README says what other presets reach.
+TEST(LayersOfNeural, AFunctionOfAnotherIsNearlyObeyedInTheEnd) {
+  const Image stones = read_image(source_folder() / "data/pebbles.png").image;
+  const Exemplar exemplar = layered(fit_longer_side(stones, 96));
+  ASSERT_LT(disobedience(exemplar.image).worst(), 1e-5);
+  const Request request{{exemplar}, {{96, 96}, Tile::both}, Random(1)};
+  const Texture texture = run_method(Method(with_preset(Preset::fast)), request, {});
+  const Disobedience found = disobedience(texture.image);
+  EXPECT_LT(found.height, 0.46);
+  EXPECT_LT(found.normal, 0.25);
 }
 
 TYPED_TEST(Layers, TheUnitsOfAMapChangeNothingElse) {
