@@ -13,6 +13,7 @@ namespace gramloom {
 namespace {
 
 constexpr int border = field_patch - 1;
+constexpr int rows_at_once = 32;
 typedef float Pixel
     __attribute__((vector_size(field_features * sizeof(float)), aligned(4), may_alias));
 typedef float Pair
@@ -70,7 +71,7 @@ GRAMLOOM_INLINE void add_weights(const PatchRow& row, float* __restrict weights)
 /// Adds one row of patches' `line`th lines: weight · values to sums, weight to weights. Pixel by
 /// pixel, whose sums stay in registers: added patch by patch, each would wait for the stores of the
 /// one before. `offsets` is room for `count` numbers.
-GRAMLOOM_SIMD void add_lines(const PatchOrigin* origins, const float* patch_weights, int count,
+GRAMLOOM_SIMD void add_lines(const SmallOrigin* origins, const float* patch_weights, int count,
                              const Image& exemplar, int line, float* sums, float* weights,
                              std::ptrdiff_t* offsets) {
   for (int x = 0; x < count; ++x)
@@ -108,6 +109,22 @@ GRAMLOOM_SIMD void weigh(const float* __restrict distances, float floor, float* 
   }
 }
 
+/// The weights of the patches over rows [first, last) of the canvas: of the row `border` above the
+/// first one on. Those of rows that the field lacks are not set.
+std::vector<float> weights_over(const PatchField& field, int first, int last, float floor) {
+  std::vector<float> weights(field.index(0, last - first + border));
+  for (int y = first - border; y < last; ++y) {
+    int row = y;
+    if (tiles_y(field.tile))
+      row = (row % field.size.height + field.size.height) % field.size.height;
+    if (row >= 0 && row < field.size.height)
+      weigh(field.distance.data() + field.index(0, row), floor,
+            weights.data() + field.index(0, y - first + border),
+            static_cast<std::size_t>(field.size.width));
+  }
+  return weights;
+}
+
 /// (distance + floor) to the power of 3/8.
 GRAMLOOM_SIMD void raise(const float* __restrict distances, float floor, float* __restrict powers,
                          std::size_t count) {
@@ -135,14 +152,16 @@ Size texture_size(const PatchField& field) {
 }
 
 Image vote(const PatchField& field, const Image& exemplar, float floor) {
-  const Size size = texture_size(field);
   Image canvas(field.size.width + border, field.size.height + border, field_features);
-  std::vector<float> patch_weights(field.distance.size());
-  parallel_for(std::ssize(patch_weights), 1 << 14, [&](std::int64_t first, std::int64_t last) {
-    weigh(field.distance.data() + first, floor, patch_weights.data() + first,
-          static_cast<std::size_t>(last - first));
-  });
-  parallel_for(size.height, 8, [&](std::int64_t first, std::int64_t last) {
+  vote(field, exemplar, floor, canvas);
+  return canvas;
+}
+
+void vote(const PatchField& field, const Image& exemplar, float floor, Image& canvas) {
+  const Size size = texture_size(field);
+  parallel_for(size.height, rows_at_once, [&](std::int64_t first, std::int64_t last) {
+    const std::vector<float> patch_weights =
+        weights_over(field, static_cast<int>(first), static_cast<int>(last), floor);
     std::vector<float> sums, weights;
     std::vector<std::ptrdiff_t> offsets(static_cast<std::size_t>(field.size.width));
     for (int y = static_cast<int>(first); y < last; ++y) {
@@ -150,8 +169,10 @@ Image vote(const PatchField& field, const Image& exemplar, float floor) {
       weights.assign(static_cast<std::size_t>(canvas.width), 0.0f);
       for_each_patch_row(field, y, [&](int row, int line) {
         const std::size_t start = field.index(0, row);
-        add_lines(field.nearest.data() + start, patch_weights.data() + start, field.size.width,
-                  exemplar, line, sums.data(), weights.data(), offsets.data());
+        const float* weights_of_row =
+            patch_weights.data() + field.index(0, y - line - static_cast<int>(first) + border);
+        add_lines(field.nearest.data() + start, weights_of_row, field.size.width, exemplar, line,
+                  sums.data(), weights.data(), offsets.data());
       });
       for (int x = size.width; x < canvas.width; ++x) {
         const int back = x % size.width;
@@ -167,13 +188,12 @@ Image vote(const PatchField& field, const Image& exemplar, float floor) {
     }
   });
   repeat_border(canvas, field);
-  return canvas;
 }
 
-std::vector<PatchOrigin> choose_pixels(const PatchField& field, const Image& canvas,
+std::vector<SmallOrigin> choose_pixels(const PatchField& field, const Image& canvas,
                                        const Image& exemplar) {
   const Size size = texture_size(field);
-  std::vector<PatchOrigin> chosen(static_cast<std::size_t>(size.width) *
+  std::vector<SmallOrigin> chosen(static_cast<std::size_t>(size.width) *
                                   static_cast<std::size_t>(size.height));
   parallel_for(size.height, 8, [&](std::int64_t first, std::int64_t last) {
     for (int y = static_cast<int>(first); y < last; ++y)
@@ -181,7 +201,7 @@ std::vector<PatchOrigin> choose_pixels(const PatchField& field, const Image& can
         const float* mean = canvas.at(x, y);
         float best = std::numeric_limits<float>::infinity();
         PatchOrigin last_said{-1, -1};
-        PatchOrigin& pixel =
+        SmallOrigin& pixel =
             chosen[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
                    static_cast<std::size_t>(x)];
         for_each_patch_row(field, y, [&](int row, int line) {
@@ -210,12 +230,18 @@ std::vector<PatchOrigin> choose_pixels(const PatchField& field, const Image& can
 }
 
 double robust_energy(const PatchField& field, float floor) {
-  std::vector<float> powers(field.distance.size());
-  parallel_for(std::ssize(powers), 1 << 14, [&](std::int64_t first, std::int64_t last) {
-    raise(field.distance.data() + first, floor, powers.data() + first,
-          static_cast<std::size_t>(last - first));
-  });
-  return std::accumulate(powers.begin(), powers.end(), 0.0);
+  constexpr std::int64_t at_once = 1 << 20;
+  std::vector<float> powers(std::min<std::size_t>(field.distance.size(), at_once));
+  double sum = 0;
+  for (std::int64_t begin = 0; begin < std::ssize(field.distance); begin += at_once) {
+    const std::int64_t count = std::min(at_once, std::ssize(field.distance) - begin);
+    parallel_for(count, 1 << 14, [&](std::int64_t first, std::int64_t last) {
+      raise(field.distance.data() + begin + first, floor, powers.data() + first,
+            static_cast<std::size_t>(last - first));
+    });
+    sum = std::accumulate(powers.begin(), powers.begin() + count, sum);
+  }
+  return sum;
 }
 
 }  // namespace gramloom

@@ -12,12 +12,15 @@ namespace gramloom {
 /// Essa, Bobick, Kwatra 2005 ("Texture optimization for example-based synthesis", section 3.1).
 /// r is 0.75 instead of their 0.8: square roots suffice for it, the same on every machine.
 Image vote(const PatchField& field, const Image& exemplar, float floor);
+/// The same, in the place of the canvas before.
+void vote(const PatchField& field, const Image& exemplar, float floor, Image& canvas);
 
 /// Each pixel's origin in the exemplar, x and y: of the pixels that the patches over it say, the
 /// one nearest to their weighted mean, so that every pixel is one of the exemplar's and sharp (as
 /// Han et al. 2006, "Fast example-based surface texture synthesis via discrete optimization").
-/// `canvas` is what vote() gave. Row by row, without the canvas's repeated border.
-std::vector<PatchOrigin> choose_pixels(const PatchField& field, const Image& canvas,
+/// `canvas` is what vote() gave. Row by row, without the canvas's repeated border; distances are
+/// not looked at.
+std::vector<SmallOrigin> choose_pixels(const PatchField& field, const Image& canvas,
                                        const Image& exemplar);
 
 /// Energy that vote() and improve() lower in turn: Σ (distance² + floor)^(r / 2).

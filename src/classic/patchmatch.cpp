@@ -108,7 +108,7 @@ bool is_small(const Level& level) {
 
 /// The sources of a texture, cut from what was chosen, of this size: a pixel beyond the exemplar is
 /// the mirror image of one inside.
-SourceMap sources_of(const std::vector<PatchOrigin>& pixels, Size chosen, Size wanted,
+SourceMap sources_of(const std::vector<SmallOrigin>& pixels, Size chosen, Size wanted,
                      Size exemplar) {
   SourceMap sources(wanted);
   for (int y = 0; y < wanted.height; ++y)
@@ -128,12 +128,13 @@ Texture synthesise(const PatchmatchParams& params, const Request& request, const
   check_request<PatchmatchParams>(request);
   const Image& exemplar = request.exemplars.front().image;
   const Target& target = request.target;
+  check_origins(exemplar.size());
   const Image source = at_least(exemplar, smallest_side);
   // A texture that does not tile may be cut from a larger one; one that tiles wraps at any size.
   const Size size{
       tiles_x(target.tile) ? target.size.width : std::max(target.size.width, smallest_side),
       tiles_y(target.tile) ? target.size.height : std::max(target.size.height, smallest_side)};
-  const std::vector<Level> levels = make_levels(params, source, size);
+  std::vector<Level> levels = make_levels(params, source, size);
   Progress progress;
   for (const Level& level : levels) progress.steps += level.iterations;
 
@@ -148,19 +149,25 @@ Texture synthesise(const PatchmatchParams& params, const Request& request, const
       if (is_small(*level)) search_all(field, canvas, level->exemplar, penalty);
     } else {
       field = refined(field, *level);
+      canvas = {};
       canvas = vote(field, level->exemplar, equal_weights);
     }
     for (int i = 0; i < level->iterations; ++i) {
       improve(field, canvas, level->exemplar, penalty, i, params.tries,
               request.random.stream(2).stream(static_cast<std::uint64_t>(progress.step)));
       progress.loss = robust_energy(field, noise_floor);
-      canvas = vote(field, level->exemplar, noise_floor);
+      vote(field, level->exemplar, noise_floor, canvas);
       update(penalty, field, params.uniformity, params.largest_copy);
       ++progress.step;
       if (!control.report(progress)) throw Interrupted();
     }
   }
+  // Of a large texture each of these takes gigabytes, and all at once are not needed.
+  field.distance = {};
   const auto pixels = choose_pixels(field, canvas, levels.front().exemplar);
+  field = {};
+  canvas = {};
+  levels.clear();
   return texture_of(sources_of(pixels, size, target.size, exemplar.size()), request.exemplars);
 }
 
@@ -171,12 +178,12 @@ Cost estimate(const PatchmatchParams& params, const RequestSize& request) {
   const auto area = [](double width, double height) { return width * height; };
   const double pixels = area(request.size.width, request.size.height);
   const double samples = area(exemplar.width, exemplar.height);
-  const double shifts =
-      area(request.size.width + exemplar.width, request.size.height + exemplar.height);
+  const double counts = area(request.size.width + exemplar.width, exemplar.height + 96);
   // A level has a quarter of the work of the next finer one, but more iterations.
   const double iterations = params.iterations * 4.0 / 3 + more_iterations * 4.0 / 9;
-  return {.bytes = pixels * (88 + sizeof(Source) + 4.0 * channels) +
-                   samples * (48 + 4.0 * channels) + shifts * 8,
+  // A field, its canvas and a coarser field; or, at the end, origins, sources and their picture.
+  const double bytes_per_pixel = std::max(32.0, 12 + 4.0 * channels);
+  return {.bytes = pixels * bytes_per_pixel + samples * (48 + 4.0 * channels) + counts * 4,
           .seconds = pixels * iterations * (45 + 15.0 * params.tries) * 1e-9};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "core/error.h"
 #include "core/simd.h"
 #include "core/threads.h"
 #include "signal/patch_distance.h"
@@ -21,7 +22,7 @@ struct Search {
   const Image& exemplar;
   const PatchPenalty& penalty;
   SketchScale scale;
-  std::vector<PatchSketch> canvas_sketches, exemplar_sketches;
+  std::vector<PatchSketch> exemplar_sketches;
   Size origins;
   std::ptrdiff_t canvas_row, exemplar_row;
 
@@ -30,11 +31,12 @@ struct Search {
         exemplar(exemplar_),
         penalty(penalty_),
         scale(sketch_scale(exemplar_)),
-        canvas_sketches(sketch_patches(canvas_, scale)),
         exemplar_sketches(sketch_patches(exemplar_, scale)),
         origins(patch_origins(exemplar_.size())),
         canvas_row(std::ptrdiff_t{canvas_.width} * field_features),
-        exemplar_row(std::ptrdiff_t{exemplar_.width} * field_features) {}
+        exemplar_row(std::ptrdiff_t{exemplar_.width} * field_features) {
+    check_origins(exemplar_.size());
+  }
 
   bool contains(PatchOrigin o) const {
     return o.x >= 0 && o.y >= 0 && o.x < origins.width && o.y < origins.height;
@@ -49,8 +51,9 @@ struct Best {
 };
 
 GRAMLOOM_INLINE float penalty_of(const Search& search, int x, int y, PatchOrigin origin) {
+  const PatchOrigin shift = search.penalty.shift(x, y, origin);
   return search.penalty.of_origin[search.penalty.index(origin)] +
-         search.penalty.of_shift[search.penalty.shift(x, y, origin)];
+         search.penalty.of_shift.at(shift.x, shift.y);
 }
 
 /// What the origin that the patch has from the pass before costs now.
@@ -129,9 +132,17 @@ GRAMLOOM_INLINE void try_four(const Search& search, int x, int y, const PatchSke
   }
 }
 
-GRAMLOOM_SIMD void improve_band(PatchField& field, const std::vector<PatchOrigin>& before,
-                                const Search& search, int first, int last, int direction, int tries,
-                                Random random) {
+/// Rows [first, last) of a field, the sketches of their patches, and, from before the pass, the row
+/// that the first of them to be scanned looks at.
+struct Band {
+  int first, last;
+  const PatchSketch* sketches;
+  const SmallOrigin* before;
+};
+
+GRAMLOOM_SIMD void improve_band(PatchField& field, const Band& band, const Search& search,
+                                int direction, int tries, Random random) {
+  const auto [first, last, sketches, before] = band;
   const int width = field.size.width, height = field.size.height;
   const auto suggestion = [&](int x, int y, int dx, int dy) {
     x += dx;
@@ -139,8 +150,8 @@ GRAMLOOM_SIMD void improve_band(PatchField& field, const std::vector<PatchOrigin
     if (tiles_x(field.tile)) x = (x + width) % width;
     if (tiles_y(field.tile)) y = (y + height) % height;
     if (x < 0 || y < 0 || x >= width || y >= height) return PatchOrigin{-1, -1};
-    const auto& nearest = y >= first && y < last ? field.nearest : before;
-    const PatchOrigin origin = nearest[field.index(x, y)];
+    const PatchOrigin origin =
+        y >= first && y < last ? field.nearest[field.index(x, y)] : before[x];
     return PatchOrigin{origin.x - dx, origin.y - dy};
   };
   const int rows = last - first;
@@ -161,7 +172,7 @@ GRAMLOOM_SIMD void improve_band(PatchField& field, const std::vector<PatchOrigin
       keep_origin(search, x, y, best);
       for (const PatchOrigin o : {suggestion(x, y, -direction, 0), suggestion(x, y, 0, -direction)})
         if (search.contains(o) && o != best.origin) try_origin(search, x, y, o, best);
-      const PatchSketch& patch = search.canvas_sketches[index];
+      const PatchSketch& patch = sketches[index - field.index(0, first)];
       if (k + 1 < width)
         prefetch_four(search, field.nearest[field.index(x + direction, y)],
                       *reinterpret_cast<const Four*>(radius.data()),
@@ -176,13 +187,13 @@ GRAMLOOM_SIMD void improve_band(PatchField& field, const std::vector<PatchOrigin
   }
 }
 
-GRAMLOOM_SIMD void search_all_of_band(PatchField& field, const Search& search, int first,
-                                      int last) {
+GRAMLOOM_SIMD void search_all_of_band(PatchField& field, const Band& band, const Search& search) {
+  const auto [first, last, sketches, before] = band;
   const int width = search.origins.width;
   for (int y = first; y < last; ++y)
     for (int x = 0; x < field.size.width; ++x) {
       const std::size_t index = field.index(x, y);
-      const PatchSketch& patch = search.canvas_sketches[index];
+      const PatchSketch& patch = sketches[index - field.index(0, first)];
       Best best{.origin = field.nearest[index]};
       keep_origin(search, x, y, best);
       int telling = telling_difference(best.cost, search.scale);
@@ -207,7 +218,27 @@ GRAMLOOM_SIMD void search_all_of_band(PatchField& field, const Search& search, i
     }
 }
 
+/// For each band the row of the field next to it that a pass in this direction looks at.
+std::vector<SmallOrigin> rows_before(const PatchField& field, int direction) {
+  const int height = field.size.height, bands = (height + band_rows - 1) / band_rows;
+  std::vector<SmallOrigin> rows(field.index(0, bands));
+  for (int band = 0; band < bands; ++band) {
+    const int beside =
+        direction > 0 ? band * band_rows - 1 : std::min(height, (band + 1) * band_rows);
+    std::copy_n(field.nearest.data() + field.index(0, (beside + height) % height), field.size.width,
+                rows.data() + field.index(0, band));
+  }
+  return rows;
+}
+
 }  // namespace
+
+void check_origins(Size exemplar) {
+  constexpr int most = SmallOrigin::most + 1;
+  if (std::max(exemplar.width, exemplar.height) > most)
+    throw Error("an exemplar of {}×{} is too large to compare its patches: at most {} a side",
+                exemplar.width, exemplar.height, most);
+}
 
 Size patch_origins(Size image) {
   return {image.width - field_patch + 1, image.height - field_patch + 1};
@@ -215,24 +246,30 @@ Size patch_origins(Size image) {
 
 PatchField blank_field(Size size, Tile tile) {
   const auto count = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
-  return {size, tile, std::vector<PatchOrigin>(count), std::vector<float>(count)};
+  return {size, tile, std::vector<SmallOrigin>(count), std::vector<float>(count)};
 }
 
 PatchField random_field(Size size, Tile tile, Size origins, Random random) {
   PatchField field = blank_field(size, tile);
-  for (PatchOrigin& origin : field.nearest)
-    origin = {static_cast<int>(random.below(static_cast<std::uint32_t>(origins.width))),
-              static_cast<int>(random.below(static_cast<std::uint32_t>(origins.height)))};
+  for (SmallOrigin& origin : field.nearest) {
+    const auto x = static_cast<int>(random.below(static_cast<std::uint32_t>(origins.width)));
+    origin = {x, static_cast<int>(random.below(static_cast<std::uint32_t>(origins.height)))};
+  }
   return field;
 }
 
 void improve(PatchField& field, const Image& canvas, const Image& exemplar,
              const PatchPenalty& penalty, int pass, int tries, Random random) {
   const Search search(canvas, exemplar, penalty);
-  const std::vector<PatchOrigin> before = field.nearest;
-  parallel_for(field.size.height, band_rows, [&](std::int64_t first, std::int64_t last) {
-    improve_band(field, before, search, static_cast<int>(first), static_cast<int>(last),
-                 pass % 2 == 0 ? 1 : -1, tries, random.stream(static_cast<std::uint64_t>(first)));
+  const int direction = pass % 2 == 0 ? 1 : -1, height = field.size.height;
+  const std::vector<SmallOrigin> before = rows_before(field, direction);
+  parallel_for(height, band_rows, [&](std::int64_t begin, std::int64_t end) {
+    const auto first = static_cast<int>(begin), last = static_cast<int>(end);
+    const auto sketches = sketch_patches(canvas, search.scale, first, last);
+    const Band band{first, last, sketches.data(),
+                    before.data() + field.index(0, first / band_rows)};
+    improve_band(field, band, search, direction, tries,
+                 random.stream(static_cast<std::uint64_t>(first)));
   });
 }
 
@@ -240,7 +277,10 @@ void search_all(PatchField& field, const Image& canvas, const Image& exemplar,
                 const PatchPenalty& penalty) {
   const Search search(canvas, exemplar, penalty);
   parallel_for(field.size.height, 1, [&](std::int64_t first, std::int64_t last) {
-    search_all_of_band(field, search, static_cast<int>(first), static_cast<int>(last));
+    const auto sketches =
+        sketch_patches(canvas, search.scale, static_cast<int>(first), static_cast<int>(last));
+    search_all_of_band(
+        field, {static_cast<int>(first), static_cast<int>(last), sketches.data(), nullptr}, search);
   });
 }
 

@@ -17,7 +17,7 @@ inline constexpr int field_features = 4;
 struct PatchField {
   Size size;
   Tile tile = Tile::none;
-  std::vector<PatchOrigin> nearest;  // row by row
+  std::vector<SmallOrigin> nearest;  // row by row
   std::vector<float> distance;       // squared, summed over the patch's values
 
   std::size_t index(int x, int y) const {
@@ -25,6 +25,9 @@ struct PatchField {
            static_cast<std::size_t>(x);
   }
 };
+
+/// Throws Error for an exemplar of more than 65,536 pixels on a side, which a field cannot name.
+void check_origins(Size exemplar);
 
 /// Number of patches of an image in each direction.
 Size patch_origins(Size image);

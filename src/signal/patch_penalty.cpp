@@ -1,6 +1,7 @@
 #include "signal/patch_penalty.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/simd.h"
 #include "signal/patch_field.h"
@@ -38,6 +39,12 @@ GRAMLOOM_SIMD void approach_use(float* __restrict penalties, const float* __rest
     approach(penalties[i], weight * std::max(0.0f, used[i] - 1));
 }
 
+GRAMLOOM_SIMD int largest_of(const int* counts, int count) {
+  int largest = 0;
+  for (int i = 0; i < count; ++i) largest = counts[i] > largest ? counts[i] : largest;
+  return largest;
+}
+
 GRAMLOOM_SIMD void approach_counts(float* __restrict penalties, const int* __restrict counts,
                                    std::size_t count, float limit, float weight) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -46,20 +53,70 @@ GRAMLOOM_SIMD void approach_counts(float* __restrict penalties, const int* __res
   }
 }
 
+constexpr int side = SparsePlane::side;
+
+/// How many patches have each shift, for some rows of shifts: as many as are not all counted yet.
+/// A row lies where the one `rows` above it was.
+struct ShiftCounts {
+  int width, rows;
+  std::vector<int> counts;
+
+  ShiftCounts(Size shifts, Size origins)
+      : width((shifts.width + side - 1) / side * side),
+        rows((origins.height + 3 * side) / side * side),
+        counts(area({width, rows})) {}
+  int* at(int y) { return counts.data() + area({width, y % rows}); }
+  const int* at(int y) const { return counts.data() + area({width, y % rows}); }
+};
+
+/// Calls f(row of squares, counts) for all rows of the penalty's squares, when their shifts are
+/// counted. Patches further down have shifts further up: the last rows come first.
+template <class F>
+void for_each_square_row(const PatchPenalty& penalty, const PatchField& field, F&& f) {
+  const Size shifts = penalty.shifts();
+  ShiftCounts counts(shifts, penalty.origins);
+  int next = (shifts.height - 1) / side;  // row of squares
+  const auto finish_down_to = [&](int shift) {
+    for (; next >= 0 && next * side >= shift; --next) {
+      f(next, std::as_const(counts));
+      std::fill_n(counts.at(next * side), area({counts.width, side}), 0);
+    }
+  };
+  for (int y = 0; y < field.size.height; ++y) {
+    if (y % side == 0) finish_down_to(penalty.shift(0, y, {0, penalty.origins.height}).y);
+    for (int x = 0; x < field.size.width; ++x) {
+      const PatchOrigin shift = penalty.shift(x, y, field.nearest[field.index(x, y)]);
+      ++counts.at(shift.y)[shift.x];
+    }
+  }
+  finish_down_to(0);
+}
+
+/// Moves the penalties of a row of squares. Those that are 0 and stay so take no memory.
+void approach_square_row(PatchPenalty& penalty, int row, const ShiftCounts& counts, float limit,
+                         float weight) {
+  for (int column = 0; column < counts.width / side; ++column) {
+    int largest = 0;
+    for (int y = 0; y < side; ++y)
+      largest = std::max(largest, largest_of(counts.at(row * side + y) + column * side, side));
+    if (static_cast<float>(largest) <= limit && penalty.of_shift.is_zero(column, row)) continue;
+    float* values = penalty.of_shift.values(column, row);
+    for (int y = 0; y < side; ++y)
+      approach_counts(values + y * side, counts.at(row * side + y) + column * side, side, limit,
+                      weight);
+  }
+}
+
 }  // namespace
 
 PatchPenalty::PatchPenalty(Size field_, Size origins_)
-    : field(field_),
-      origins(origins_),
-      of_origin(area(origins)),
-      of_shift(area({field.width + origins.width - 1, field.height + origins.height - 1})) {}
+    : field(field_), origins(origins_), of_origin(area(origins)), of_shift(shifts()) {}
 
 std::vector<float> usage(const PatchField& field, Size origins) {
   const auto width = static_cast<std::size_t>(origins.width);
   std::vector<float> used(area(origins)), rows(used.size());
   const float share = static_cast<float>(used.size()) / static_cast<float>(field.nearest.size());
-  for (const PatchOrigin o : field.nearest)
-    used[static_cast<std::size_t>(o.y) * width + static_cast<std::size_t>(o.x)] += share;
+  for (const SmallOrigin o : field.nearest) used[o.y * width + o.x] += share;
   for (int y = 0; y < origins.height; ++y) {
     const std::size_t row = static_cast<std::size_t>(y) * width;
     for (int x = 0; x < origins.width; ++x) {
@@ -87,13 +144,11 @@ void update(PatchPenalty& penalty, const PatchField& field, double uniformity,
   approach_use(penalty.of_origin.data(), used.data(), used.size(),
                static_cast<float>(uniformity) * patch_area);
 
-  std::vector<int> counts(penalty.of_shift.size());
-  for (int y = 0; y < field.size.height; ++y)
-    for (int x = 0; x < field.size.width; ++x)
-      ++counts[penalty.shift(x, y, field.nearest[field.index(x, y)])];
   const float limit =
       std::max(1.0f, static_cast<float>(largest_copy) * static_cast<float>(used.size()));
-  approach_counts(penalty.of_shift.data(), counts.data(), counts.size(), limit, 0.5f * patch_area);
+  for_each_square_row(penalty, field, [&](int row, const ShiftCounts& counts) {
+    approach_square_row(penalty, row, counts, limit, 0.5f * patch_area);
+  });
 }
 
 }  // namespace gramloom

@@ -4,6 +4,7 @@
 
 #include "core/image.h"
 #include "signal/patch_origin.h"
+#include "signal/sparse_plane.h"
 
 namespace gramloom {
 
@@ -14,15 +15,17 @@ struct PatchPenalty {
   Size field;
   Size origins;
   std::vector<float> of_origin;  // row by row
-  std::vector<float> of_shift;   // see shift()
+  SparsePlane of_shift;          // see shift()
 
   PatchPenalty(Size field_, Size origins_);
 
-  /// Index of the shift origin − (x, y). Patches of one shift are one piece of the exemplar.
-  std::size_t shift(int x, int y, PatchOrigin origin) const {
-    return static_cast<std::size_t>(origin.y - y + field.height - 1) *
-               static_cast<std::size_t>(field.width + origins.width - 1) +
-           static_cast<std::size_t>(origin.x - x + field.width - 1);
+  /// Where the shift origin − (x, y) lies among all. Patches of one shift are one piece of the
+  /// exemplar.
+  PatchOrigin shift(int x, int y, PatchOrigin origin) const {
+    return {origin.x - x + field.width - 1, origin.y - y + field.height - 1};
+  }
+  Size shifts() const {
+    return {field.width + origins.width - 1, field.height + origins.height - 1};
   }
   std::size_t index(PatchOrigin origin) const {
     return static_cast<std::size_t>(origin.y) * static_cast<std::size_t>(origins.width) +

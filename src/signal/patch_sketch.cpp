@@ -40,6 +40,30 @@ GRAMLOOM_SIMD void sketch_quarters(const Image& features, int y, const SketchSca
   }
 }
 
+/// The sketches of the patches in rows [first, last).
+void sketch_rows(const Image& features, const SketchScale& scale, int first, int last,
+                 PatchSketch* sketch) {
+  const int width = patch_origins(features.size()).width, quarters = width + quarter;
+  const auto row_bytes = static_cast<std::size_t>(quarters * field_features);
+  std::vector<float> columns(static_cast<std::size_t>(features.width * field_features));
+  std::vector<std::int8_t> whole(static_cast<std::size_t>(last - first + quarter) * row_bytes);
+  for (int y = 0; y < last - first + quarter; ++y)
+    sketch_quarters(features, first + y, scale, quarters, columns.data(),
+                    whole.data() + static_cast<std::size_t>(y) * row_bytes);
+  for (int y = 0; y < last - first; ++y) {
+    const std::int8_t* above = whole.data() + static_cast<std::size_t>(y) * row_bytes;
+    const std::int8_t* below = above + quarter * row_bytes;
+    for (int x = 0; x < width; ++x, ++sketch) {
+      std::int8_t* to = sketch->values.data();
+      for (const std::int8_t* from :
+           {above, above + quarter * field_features, below, below + quarter * field_features}) {
+        std::memcpy(to, from + x * field_features, field_features);
+        to += field_features;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 SketchScale sketch_scale(const Image& features) {
@@ -61,32 +85,21 @@ SketchScale sketch_scale(const Image& features) {
   return scale;
 }
 
+std::vector<PatchSketch> sketch_patches(const Image& features, const SketchScale& scale, int first,
+                                        int last) {
+  const auto width = static_cast<std::size_t>(patch_origins(features.size()).width);
+  std::vector<PatchSketch> sketches(width * static_cast<std::size_t>(last - first));
+  sketch_rows(features, scale, first, last, sketches.data());
+  return sketches;
+}
+
 std::vector<PatchSketch> sketch_patches(const Image& features, const SketchScale& scale) {
   const Size size = patch_origins(features.size());
-  const int quarters = size.width + quarter;
-  const auto row_bytes = static_cast<std::size_t>(quarters * field_features);
-  std::vector<PatchSketch> sketches(static_cast<std::size_t>(size.width) *
-                                    static_cast<std::size_t>(size.height));
+  const auto width = static_cast<std::size_t>(size.width);
+  std::vector<PatchSketch> sketches(width * static_cast<std::size_t>(size.height));
   parallel_for(size.height, band_rows, [&](std::int64_t first, std::int64_t last) {
-    std::vector<float> columns(static_cast<std::size_t>(features.width * field_features));
-    std::vector<std::int8_t> whole(static_cast<std::size_t>(last - first + quarter) * row_bytes);
-    for (std::int64_t y = 0; y < last - first + quarter; ++y)
-      sketch_quarters(features, static_cast<int>(first + y), scale, quarters, columns.data(),
-                      whole.data() + static_cast<std::size_t>(y) * row_bytes);
-    PatchSketch* sketch =
-        sketches.data() + static_cast<std::size_t>(first) * static_cast<std::size_t>(size.width);
-    for (std::int64_t y = 0; y < last - first; ++y) {
-      const std::int8_t* above = whole.data() + static_cast<std::size_t>(y) * row_bytes;
-      const std::int8_t* below = above + quarter * row_bytes;
-      for (int x = 0; x < size.width; ++x, ++sketch) {
-        std::int8_t* to = sketch->values.data();
-        for (const std::int8_t* from :
-             {above, above + quarter * field_features, below, below + quarter * field_features}) {
-          std::memcpy(to, from + x * field_features, field_features);
-          to += field_features;
-        }
-      }
-    }
+    sketch_rows(features, scale, static_cast<int>(first), static_cast<int>(last),
+                sketches.data() + static_cast<std::size_t>(first) * width);
   });
   return sketches;
 }

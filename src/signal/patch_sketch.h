@@ -29,6 +29,9 @@ SketchScale sketch_scale(const Image& features);
 
 /// The sketches of all patches, row by row.
 std::vector<PatchSketch> sketch_patches(const Image& features, const SketchScale& scale);
+/// Those of rows [first, last).
+std::vector<PatchSketch> sketch_patches(const Image& features, const SketchScale& scale, int first,
+                                        int last);
 
 typedef int Four __attribute__((vector_size(16)));
 

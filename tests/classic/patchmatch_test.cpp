@@ -6,6 +6,7 @@
 
 #include "classic/patch_features.h"
 #include "classic/patch_vote.h"
+#include "core/error.h"
 #include "core/threads.h"
 #include "patch_exemplars.h"
 #include "signal/patch_field.h"
@@ -114,6 +115,54 @@ TEST(PatchPenalty, UsageCountsPatches) {
   EXPECT_NEAR(used[15 * 30 + 15], 900.0 / 81, 1e-3);
   EXPECT_EQ(used[0], 0);
   EXPECT_NEAR(std::accumulate(used.begin(), used.end(), 0.0) / 900, 1, 1e-3);
+}
+
+// Counted in squares as the rows go by; here as it is defined. Fields that lack patches of most
+// shifts, and one that has more of a shift than are allowed in many.
+TEST(PatchPenalty, ShiftsArePenalisedAsOftenAsTheyAreUsed) {
+  for (const auto& [size, origins] : {std::pair{Size{150, 90}, Size{40, 33}},
+                                      {Size{33, 200}, Size{70, 10}},
+                                      {Size{40, 30}, Size{90, 140}}}) {
+    PatchField field = random_field(size, Tile::both, origins, Random(5));
+    for (int y = 0; y < size.height / 2; ++y)
+      for (int x = 0; x < size.width; ++x)
+        field.nearest[field.index(x, y)] = {(x + 3) % origins.width, (y + 5) % origins.height};
+    PatchPenalty penalty(size, origins);
+    std::vector<float> expected(static_cast<std::size_t>(penalty.shifts().width) *
+                                static_cast<std::size_t>(penalty.shifts().height));
+    const auto index = [&](PatchOrigin shift) {
+      return static_cast<std::size_t>(shift.y) * static_cast<std::size_t>(penalty.shifts().width) +
+             static_cast<std::size_t>(shift.x);
+    };
+    const float limit = std::max(1.0f, 0.002f * static_cast<float>(origins.width * origins.height));
+    for (int round = 0; round < 3; ++round) {
+      std::vector<int> counts(expected.size());
+      for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x)
+          ++counts[index(penalty.shift(x, y, field.nearest[field.index(x, y)]))];
+      for (std::size_t i = 0; i < counts.size(); ++i) {
+        const float excess = static_cast<float>(counts[i]) / limit - 1;
+        expected[i] += 0.5f * (32 * std::min(4.0f, std::max(0.0f, excess)) - expected[i]);
+      }
+      update(penalty, field, 0.3, 0.002);
+      for (int y = 0; y < penalty.shifts().height; ++y)
+        for (int x = 0; x < penalty.shifts().width; ++x)
+          ASSERT_EQ(penalty.of_shift.at(x, y), expected[index({x, y})]);
+      field = random_field(size, Tile::both, origins, Random(6));
+    }
+  }
+}
+
+TEST(PatchField, AnExemplarTooLargeToNameItsPatchesIsAClearError) {
+  const Image exemplar(65'537, 16, 1);
+  try {
+    optimise({}, exemplar, {{32, 32}, Tile::both});
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "an exemplar of 65537×16 is too large to compare its patches: at most 65536 a "
+                 "side");
+  }
 }
 
 TEST(Patchmatch, BoundsWhatIsCopiedAsAWhole) {
