@@ -118,5 +118,24 @@ TEST(LineSearch, SurvivesAStepThatOverflows) {
   EXPECT_LE(found.value, 0);
 }
 
+TEST(Adam, MovesALargePictureAsItDoesASmallOne) {
+  const std::int64_t count = 3 * 900 * 900;
+  const at::Tensor scale = at::linspace(0.1, 2, count);
+  at::Tensor x = at::linspace(-1, 1, count), last = x.narrow(0, count - 1000, 1000).clone();
+  const auto bowl = [](const at::Tensor& factors) {
+    return Objective([&factors](const at::Tensor& at, at::Tensor& gradient) {
+      at::mul_out(gradient, at, factors);
+      return 1.0;
+    });
+  };
+  Adam large(0.05, 10), small(0.05, 10);
+  const at::Tensor scale_of_last = scale.narrow(0, count - 1000, 1000).clone();
+  for (int i = 0; i < 5; ++i) {
+    large.step(x, bowl(scale));
+    small.step(last, bowl(scale_of_last));
+  }
+  EXPECT_LT((x.narrow(0, count - 1000, 1000) - last).abs().max().item<double>(), 1e-5);
+}
+
 }  // namespace
 }  // namespace gramloom::neural

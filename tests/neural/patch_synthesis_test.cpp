@@ -18,11 +18,15 @@ namespace fs = std::filesystem;
 TEST(NeuralPatches, ThreadsDoNotMatter) {
   const Image exemplar = stripes({72, 64}, 3);
   const Target target{{80, 72}, Tile::x};
-  const Image whole = run(quick_patches(), exemplar, target);
-  set_thread_count(1);
-  const Image alone = run(quick_patches(), exemplar, target);
-  set_thread_count(0);
-  EXPECT_EQ(alone, whole);
+  for (const int positions : {300'000, 4096}) {  // all, and a part of those of the finest level
+    NeuralParams params = quick_patches();
+    params.positions = positions;
+    const Image whole = run(params, exemplar, target);
+    set_thread_count(1);
+    const Image alone = run(params, exemplar, target);
+    set_thread_count(0);
+    EXPECT_EQ(alone, whole);
+  }
 }
 
 TEST(NeuralPatches, GoOnToTheSameBytes) {
@@ -31,8 +35,9 @@ TEST(NeuralPatches, GoOnToTheSameBytes) {
                                  {Optimizer::adam, Optimizer::lbfgs}}) {
     NeuralParams params = quick_patches();
     params.optimizer = optimisers;
+    params.positions = 4096;  // the finest level looks at a part of them
     const Image exemplar = stripes({48, 48}, 3);
-    const Target target{{40, 52}, Tile::both};
+    const Target target{{64, 72}, Tile::both};
     const fs::path checkpoint = fs::path(testing::TempDir()) / "neural_patches.checkpoint";
     fs::remove(checkpoint);
     const Image whole = run(params, exemplar, target);

@@ -12,10 +12,12 @@
 namespace gramloom::neural {
 namespace {
 
+constexpr int all = 1 << 30;  // positions; a part of them: sampled_test.cpp
+
 struct SlicedTerm : MadeTerm {
   SlicedTerm(const at::Tensor& exemplar, Size target, Tile wraps, std::vector<int> patch_sizes,
              int directions, Random random)
-      : MadeTerm(SlicedParams{1, std::move(patch_sizes)}, exemplar, target, wraps, directions,
+      : MadeTerm(SlicedParams{1, std::move(patch_sizes), all}, exemplar, target, wraps, directions,
                  random) {}
 };
 

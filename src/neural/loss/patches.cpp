@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <memory>
-#include <oneapi/dnnl/dnnl.hpp>
 #include <vector>
 
 #include "core/error.h"
 #include "core/threads.h"
+#include "neural/loss/multiply.h"
 #include "neural/openmp.h"
 
 namespace gramloom::neural {
@@ -78,32 +78,6 @@ void for_each_line(const Layout& l, std::int64_t first, std::int64_t rows, F&& f
     for (std::int64_t ky = 0; ky < l.kernel; ++ky)
       for (std::int64_t kx = 0; kx < l.kernel; ++kx)
         for (std::int64_t y = 0; y < rows; ++y, ++line) f(c, first + y + ky, kx, line * l.width);
-}
-
-// c = a · b, or aᵀ · b; a has `inner` columns, or rows. Each row-major, `step` values from row to
-// row. oneDNN writes the products; OpenBLAS, which adds them to a c that it has filled with zeros
-// before, takes a third longer where c has few rows.
-template <class T>
-struct Matrix {
-  T* values;
-  std::int64_t step;
-};
-void multiply(char transposed, Matrix<const float> a, Matrix<const float> b, Matrix<float> c,
-              std::int64_t rows, std::int64_t columns, std::int64_t inner) {
-  dnnl::sgemm(transposed, 'N', rows, columns, inner, 1, a.values, a.step, b.values, b.step, 0,
-              c.values, c.step);
-}
-void multiply(char transposed, Matrix<const double> a, Matrix<const double> b, Matrix<double> c,
-              std::int64_t rows, std::int64_t columns, std::int64_t inner) {
-  for (std::int64_t r = 0; r < rows; ++r)
-    for (std::int64_t i = 0; i < inner; ++i) {
-      const double factor = a.values[transposed == 'T' ? i * a.step + r : r * a.step + i];
-      for (std::int64_t k = 0; k < columns; ++k) {
-        const double product = factor * b.values[i * b.step + k];
-        double& sum = c.values[r * c.step + k];
-        sum = i == 0 ? product : sum + product;
-      }
-    }
 }
 
 }  // namespace

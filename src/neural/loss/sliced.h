@@ -19,10 +19,14 @@ namespace gramloom {
 /// Directions are drawn anew in each step of Adam. Divided by the exemplar's distance from a flat
 /// picture, so that it is 0 for the exemplar and about 1 for no structure at all. Of a flat
 /// exemplar the colour is all there is to match.
+/// Of a picture of more than `positions` patches the distance is that of a random part, drawn anew
+/// in each step (patch_sample.h). From it follows where each patch of the whole should go
+/// (potential.h), so that every pixel changes in every step.
 struct SlicedParams {
   static constexpr std::string_view name = "sliced";
   double sliced_weight = 1;
   std::vector<int> patch_sizes{7, 5};
+  int positions = 300'000;
 
   double weight() const { return sliced_weight; }
   static constexpr auto fields() {
@@ -36,7 +40,13 @@ struct SlicedParams {
                             &P::patch_sizes,
                             "sides of these patches; of several, steps of adam take turns",
                             "pixels of the level",
-                            {1, 64}}};
+                            {1, 64}},
+                      Field{"positions",
+                            &P::positions,
+                            "positions of a picture's patches that a step compares; of more, a "
+                            "random part about as large",
+                            "",
+                            {4096, 2147483647}}};
   }
 };
 
@@ -61,21 +71,35 @@ inline void check_patches_fit(const std::vector<int>& patch_sizes, Size exemplar
   }
 }
 
-/// Both pictures are projected along each direction and sorted and, one of them, spread again.
+/// Directions that a picture of more than `positions` is compared along at a time.
+inline constexpr std::int64_t sampled_directions_at_once = 32;
+
+/// Both pictures are projected along each direction and sorted and, one of them, spread again; of
+/// a large result samples are projected and counted, and all of it is projected and spread.
 inline LossCost cost(const SlicedParams& params, const LossSize& size) {
   double taps = 0;
   for (const int side : params.patch_sizes)
     taps += static_cast<double>(side) * side * size.channels /
             static_cast<double>(params.patch_sizes.size());
-  const double larger = std::max(size.result, size.exemplar);
-  const double at_once = std::min<double>(
-      size.directions, std::max(static_cast<double>(least_directions_at_once),
-                                static_cast<double>(sliced_values_at_once) / larger));
+  const double directions = size.directions, most = params.positions;
+  const double exemplar = std::min(size.exemplar, most);
+  const auto projected = [&](double positions) {
+    return 2 * taps * directions * positions / patch_operations_per_second;
+  };
+  if (size.result > most) {
+    const double samples = exemplar + most;
+    return {projected(2 * size.result + samples) +
+                directions * (size.result + samples) * seconds_per_counted_value,
+            sizeof(float) * samples * std::min<double>(directions, sampled_directions_at_once)};
+  }
+  const double larger = std::max(size.result, exemplar);
+  const double at_once =
+      std::min<double>(directions, std::max(static_cast<double>(least_directions_at_once),
+                                            static_cast<double>(sliced_values_at_once) / larger));
   const double keys = 16 * larger * std::min<double>(thread_count(), at_once);
-  return {
-      2 * taps * size.directions * (2 * size.result + size.exemplar) / patch_operations_per_second +
-          size.directions * (size.result + 0.5 * size.exemplar) * seconds_per_sorted_value,
-      sizeof(float) * 2 * at_once * larger + keys};
+  return {projected(2 * size.result + exemplar) +
+              directions * (size.result + 0.5 * exemplar) * seconds_per_sorted_value,
+          sizeof(float) * 2 * at_once * larger + keys};
 }
 
 namespace neural {

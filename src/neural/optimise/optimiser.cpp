@@ -4,11 +4,17 @@
 
 #include <cmath>
 
+#include "core/threads.h"
+#include "neural/openmp.h"
 #include "neural/optimise/line_search.h"
 
 namespace gramloom::neural {
 
 namespace {
+
+// Values of a picture that Adam moves in parts, all of whose numbers stay in the cache.
+constexpr std::int64_t large = 1 << 21;
+constexpr std::int64_t values_at_once = 1 << 14;
 
 double scalar_product(const at::Tensor& a, const at::Tensor& b) {
   return at::dot(a.view(-1), b.view(-1)).item<double>();
@@ -114,16 +120,29 @@ double Adam::step(at::Tensor& x, const Objective& objective) {
     first_ = at::zeros_like(x);
     second_ = at::zeros_like(x);
   }
-  at::Tensor gradient = at::empty_like(x);
-  const double value = objective(x, gradient);
+  if (!gradient_.defined()) gradient_ = at::empty_like(x);
+  const double value = objective(x, gradient_);
   ++steps_;
-  first_.mul_(decay1).add_(gradient, 1 - decay1);
-  second_.mul_(decay2).addcmul_(gradient, gradient, 1 - decay2);
   const double correction1 = 1 - std::pow(decay1, steps_);
   const double correction2 = std::sqrt(1 - std::pow(decay2, steps_));
-  const at::Tensor scale = second_.sqrt().div_(correction2).add_(epsilon);
   const double done = static_cast<double>(steps_ - 1) / static_cast<double>(planned_);
-  x.addcdiv_(first_, scale, -learning_rate_ * (1 - 0.9 * std::min(1.0, done)) / correction1);
+  const double rate = learning_rate_ * (1 - 0.9 * std::min(1.0, done)) / correction1;
+  const auto move = [&](at::Tensor part, const at::Tensor& gradient, at::Tensor first,
+                        at::Tensor second) {
+    first.mul_(decay1).add_(gradient, 1 - decay1);
+    second.mul_(decay2).addcmul_(gradient, gradient, 1 - decay2);
+    const at::Tensor scale = second.sqrt().div_(correction2).add_(epsilon);
+    part.addcdiv_(first, scale, -rate);
+  };
+  if (x.numel() <= large || !x.is_contiguous()) {
+    move(x, gradient_, first_, second_);
+    return value;
+  }
+  parallel_for(x.numel(), values_at_once, [&](std::int64_t begin, std::int64_t end) {
+    const InThisThread in_this_thread;
+    const auto part = [&](const at::Tensor& t) { return t.view(-1).narrow(0, begin, end - begin); };
+    move(part(x), part(gradient_), part(first_), part(second_));
+  });
   return value;
 }
 

@@ -71,7 +71,7 @@ class Adam {
  private:
   double learning_rate_;
   std::int64_t planned_, steps_ = 0;
-  at::Tensor first_, second_;
+  at::Tensor first_, second_, gradient_;
 };
 
 using AnyOptimiser = std::variant<Lbfgs, Adam>;
