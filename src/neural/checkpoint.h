@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/fields.h"
+#include "neural/flow/patch_flow.h"
 #include "neural/optimise/optimiser.h"
 
 namespace gramloom::neural {
@@ -19,7 +20,9 @@ struct Checkpoint {
   std::int64_t evaluations = 0;
   double seconds = 0;
   double first_loss = 0;
-  at::Tensor picture;  // (channels, height, width)
+  std::int64_t octave = 0, octave_step = 0;  // of the layout
+  at::Tensor prices;                         // of the layout; undefined: none
+  at::Tensor picture;                        // (channels, height, width)
   SavedState optimiser;
 
   static constexpr auto fields() {
@@ -30,7 +33,9 @@ struct Checkpoint {
         Field{"iteration", &C::iteration, "steps done on this level"},
         Field{"evaluations", &C::evaluations, "of the loss, on all levels"},
         Field{"seconds", &C::seconds, "since the start", "seconds"},
-        Field{"first_loss", &C::first_loss, "of this level"}};
+        Field{"first_loss", &C::first_loss, "of this level"},
+        Field{"octave", &C::octave, "of the layout, 0 is the coarsest"},
+        Field{"octave_step", &C::octave_step, "steps done on this octave"}};
   }
 };
 

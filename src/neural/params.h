@@ -7,6 +7,7 @@
 
 #include "core/abilities.h"
 #include "core/fields.h"
+#include "neural/flow/params.h"
 #include "neural/loss/terms.h"
 
 namespace gramloom {
@@ -16,6 +17,9 @@ enum class Padding { circular, reflect, zero, valid };
 enum class Pooling { as_described, average, max };
 enum class RandomWeights { he_normal, orthogonal };
 enum class Optimizer { lbfgs, adam };
+/// Where a picture begins: as noise on the coarsest level, or as the layout that patch flow matching
+/// makes (flow/patch_flow.h), of which only the finest level is optimised.
+enum class Layout { noise, flow };
 
 template <>
 inline constexpr auto enum_names<Padding> = std::to_array<std::string_view>({"circular", "reflect",
@@ -28,6 +32,8 @@ inline constexpr auto enum_names<RandomWeights> = std::to_array<std::string_view
                                                                                    "orthogonal"});
 template <>
 inline constexpr auto enum_names<Optimizer> = std::to_array<std::string_view>({"lbfgs", "adam"});
+template <>
+inline constexpr auto enum_names<Layout> = std::to_array<std::string_view>({"noise", "flow"});
 
 /// Complete settings, each to be chosen by one word. `gatys` is the loss and the
 /// optimiser of 2015, but for normalise, centre, standardise and whitening; with `network` vgg19
@@ -42,7 +48,7 @@ inline constexpr auto enum_names<Preset> = std::to_array<std::string_view>({"fas
 /// is changed step by step, coarse to fine, until its statistics are those of the exemplar. The
 /// loss is the weighted sum of the terms in loss/terms.h, each explained in its header. In a trace
 /// they have their names; those that look at a network have the layer's name too: gram_relu1_1.
-struct NeuralParams : LossParams {
+struct NeuralParams : LossParams, FlowParams {
   static constexpr std::string_view kind = "neural";
   static constexpr std::string_view summary =
       "statistics of random filters or of a network (Gatys et al. 2015; Heitz et al. 2021)";
@@ -71,6 +77,7 @@ struct NeuralParams : LossParams {
   double stop_loss = 0;
   double stop_seconds = std::numeric_limits<double>::infinity();
 
+  Layout layout = Layout::noise;
   int levels = 0;
   int coarsest_side = 24;
   double level_factor = 0.7;
@@ -132,6 +139,7 @@ struct NeuralParams : LossParams {
               "stop after this time",
               "seconds",
               {0, std::numeric_limits<double>::infinity()}},
+        Field{"layout", &P::layout, "where the picture begins: noise, or patch flow matching"},
         Field{"levels",
               &P::levels,
               "levels of the image pyramid, coarse to fine; 0: by coarsest_side",
@@ -163,7 +171,7 @@ struct NeuralParams : LossParams {
         Field{"match_histogram", &P::match_histogram,
               "at the end, give each channel the exemplar's histogram"},
     };
-    return std::tuple_cat(first, LossParams::fields(), others);
+    return std::tuple_cat(first, LossParams::fields(), others, FlowParams::fields());
   }
 };
 

@@ -13,6 +13,7 @@ namespace gramloom::neural {
 
 int level_count(const NeuralParams& params, Size exemplar, const Target& target) {
   if (params.levels > 0) return params.levels;
+  if (params.layout == Layout::flow && params.start.empty()) return 1;
   const int patch = params.sliced_weight > 0
                         ? *std::max_element(params.patch_sizes.begin(), params.patch_sizes.end())
                         : 1;

@@ -8,6 +8,7 @@
 #include "core/threads.h"
 #include "io/image_file.h"
 #include "neural/checkpoint.h"
+#include "neural/flow/patch_flow.h"
 #include "neural/layout.h"
 #include "neural/loss/loss.h"
 #include "neural/module.h"
@@ -112,6 +113,7 @@ class Synthesis {
       state_.level = state_.first_level = levels_ - 1;
     }
     last_checkpoint_ = Clock::now();
+    if (!make_layout()) return cropped(state_.picture);
     while (run_level() && state_.level > 0) {
       const bool copied = copies_layout();
       --state_.level;
@@ -121,17 +123,21 @@ class Synthesis {
       state_.first_level = state_.level;
       state_.picture = at::Tensor();
     }
-    // Stopped on a coarse level, it has that level's size.
-    const at::Tensor canvas = resample(state_.picture, canvas_, target_.tile);
+    return cropped(state_.picture);
+  }
+
+  const ColourPca& colours() const { return colours_; }
+
+ private:
+  // Stopped on a coarse level, the picture has that level's size.
+  at::Tensor cropped(const at::Tensor& picture) const {
+    const at::Tensor canvas = resample(picture, canvas_, target_.tile);
     const Size size = target_.size;
     return canvas.narrow(1, (canvas_.height - size.height) / 2, size.height)
         .narrow(2, (canvas_.width - size.width) / 2, size.width)
         .contiguous();
   }
 
-  const ColourPca& colours() const { return colours_; }
-
- private:
   Edges exemplar_edges() const { return {params_.exemplar_padding, params_.exemplar_padding}; }
   Edges edges() const {
     return {tiles_x(target_.tile) ? Padding::circular : params_.padding,
@@ -148,6 +154,26 @@ class Synthesis {
     }
     const Image image = read_start(params_, channels);
     return resample(to_planes(whitened(image, colours_)), size, target_.tile);
+  }
+
+  bool has_layout() const { return params_.layout == Layout::flow && params_.start.empty(); }
+
+  // The layout by patch flow matching; false when the synthesis should stop.
+  bool make_layout() {
+    if (!has_layout() || state_.evaluations > 0) return true;
+    const double scale = 1 / std::sqrt(exemplar_.square().mean().item<double>());
+    PatchFlow flow(params_, exemplar_ * scale, canvas_, random_.stream(3));
+    FlowState layout{state_.octave, state_.octave_step, state_.picture, state_.prices};
+    while (!flow.done(layout)) {
+      flow.step(layout);
+      state_.octave = layout.octave;
+      state_.octave_step = layout.step;
+      state_.picture = layout.picture;
+      state_.prices = layout.prices;
+    }
+    state_.picture = state_.picture / scale;
+    state_.prices = at::Tensor();
+    return true;
   }
 
   // Whether the level on which the picture began has brought back the exemplar's layout, and a
@@ -191,7 +217,7 @@ class Synthesis {
     const bool resumed = state_.iteration > 0;
     if (!state_.picture.defined())
       state_.picture = first_picture(size);
-    else if (!resumed)
+    else if (!resumed && size != size_of(state_.picture))
       state_.picture = enlarged(size);
 
     if (state_.iteration >= iterations || out_of_time()) return true;

@@ -1,0 +1,197 @@
+#include "neural/flow/patch_flow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/threads.h"
+#include "neural/flow/band_match.h"
+#include "neural/flow/nearest.h"
+#include "neural/flow/patch_axes.h"
+#include "neural/flow/prices.h"
+#include "neural/flow/vote.h"
+#include "neural/picture.h"
+#include "neural/resample.h"
+#include "neural/settings.h"
+
+namespace gramloom::neural {
+
+namespace {
+
+constexpr int axes_kept = 48;
+constexpr int stride = 2;              // between patches that vote
+constexpr float bands_until = 0.9f;    // the time up to which bands are matched
+
+enum class Stream : std::uint64_t { axes, noise, shift, references, queries };
+
+at::Tensor normal_noise(Random random, at::IntArrayRef shape) {
+  at::Tensor planes = at::empty(shape, at::kFloat);
+  const std::int64_t width = shape.back(), rows = planes.numel() / width;
+  float* values = planes.data_ptr<float>();
+  parallel_for(rows, 16, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t row = begin; row < end; ++row) {
+      Random own = random.stream(static_cast<std::uint64_t>(row));
+      for (std::int64_t x = 0; x < width; ++x) values[row * width + x] = own.normal();
+    }
+  });
+  return planes;
+}
+
+// `count` of 0 … total − 1, in rising order; all of them if there are no more.
+std::vector<std::int64_t> draw(std::int64_t count, std::int64_t total, Random random) {
+  std::vector<std::int64_t> drawn;
+  if (count >= total) {
+    drawn.resize(static_cast<std::size_t>(total));
+    std::iota(drawn.begin(), drawn.end(), 0);
+    return drawn;
+  }
+  // Each is taken with the probability that is still wanted (Knuth, selection sampling).
+  for (std::int64_t i = 0, left = count; left > 0; ++i)
+    if (random.uniform() * static_cast<float>(total - i) < static_cast<float>(left)) {
+      drawn.push_back(i);
+      --left;
+    }
+  return drawn;
+}
+
+}  // namespace
+
+struct PatchFlow::Octave {
+  std::int64_t index;
+  Image exemplar;
+  Size size, places;
+  PatchAxes axes;
+  BandStatistics bands;
+  std::vector<float> window;
+  std::vector<float> times;  // times[i] before step i
+};
+
+PatchFlow::PatchFlow(const FlowParams& params, const at::Tensor& exemplar, Size size, Random random)
+    : params_(params), exemplar_(exemplar), size_(size), random_(random) {}
+PatchFlow::~PatchFlow() = default;
+
+std::int64_t PatchFlow::steps() const {
+  std::int64_t steps = 0;
+  for (int o = 0; o < params_.flow_octaves; ++o) steps += at_level(params_.flow_steps, o);
+  return steps;
+}
+
+std::int64_t PatchFlow::steps_done(const FlowState& state) const {
+  std::int64_t steps = state.step;
+  for (std::int64_t o = 0; o < state.octave; ++o)
+    steps += at_level(params_.flow_steps, static_cast<int>(params_.flow_octaves - 1 - o));
+  return steps;
+}
+
+bool PatchFlow::done(const FlowState& state) const { return state.octave >= params_.flow_octaves; }
+
+PatchFlow::Octave& PatchFlow::octave(std::int64_t index) {
+  if (octave_ && octave_->index == index) return *octave_;
+  const int finer = static_cast<int>(params_.flow_octaves - 1 - index);
+  const double factor = std::pow(0.5, finer);
+  const auto scaled = [&](std::int64_t side) {
+    return std::max(1, static_cast<int>(std::lround(static_cast<double>(side) * factor)));
+  };
+  auto o = std::make_unique<Octave>();
+  o->index = index;
+  o->size = {scaled(size_.width), scaled(size_.height)};
+  o->exemplar = to_image(resample(exemplar_, {scaled(exemplar_.size(2)), scaled(exemplar_.size(1))},
+                                  Tile::none));
+  const int side = at_level(params_.flow_patch_sizes, finer);
+  o->places = patch_places(o->exemplar.size(), side);
+  const auto part = static_cast<std::uint64_t>(index);
+  o->axes = patch_axes(o->exemplar, side, axes_kept,
+                       random_.stream(part).stream(std::uint64_t(Stream::axes)));
+  o->bands = band_statistics(o->exemplar, Tile::none);
+  o->window = vote_window(side, finer == 0 ? 0.25 : 0.25);
+  const int steps = at_level(params_.flow_steps, finer);
+  if (index == 0) {  // the first step, towards the mean, is known
+    for (int i = 1; i < steps + 2; ++i)
+      o->times.push_back(static_cast<float>(i) / static_cast<float>(steps + 1));
+  } else {
+    const auto first = static_cast<float>(at_level(params_.flow_renoise, finer));
+    for (int i = 0; i <= steps; ++i)
+      o->times.push_back(first + (1 - first) * static_cast<float>(i) / static_cast<float>(steps));
+  }
+  octave_ = std::move(o);
+  return *octave_;
+}
+
+void PatchFlow::step(FlowState& state) {
+  Octave& o = octave(state.octave);
+  const int finer = static_cast<int>(params_.flow_octaves - 1 - state.octave);
+  const Random random = random_.stream(static_cast<std::uint64_t>(state.octave));
+  const int channels = o.exemplar.channels;
+  if (state.step == 0) {
+    const at::Tensor noise = normal_noise(random.stream(std::uint64_t(Stream::noise)),
+                                          {channels, o.size.height, o.size.width});
+    const float t = o.times[0];
+    if (state.octave == 0) {
+      at::Tensor mean = to_planes(o.exemplar).mean({1, 2}, true);
+      state.picture = noise * (1 - t) + mean * t;
+    } else {
+      state.picture = resample(state.picture, o.size, Tile::both) * t + noise * (1 - t);
+    }
+    state.prices = at::zeros({o.places.height, o.places.width}, at::kFloat);
+  }
+  const auto at_step = [&](Stream stream) {
+    return random.stream(std::uint64_t(stream)).stream(static_cast<std::uint64_t>(state.step));
+  };
+  const float t = o.times[static_cast<std::size_t>(state.step)];
+  const float next = o.times[static_cast<std::size_t>(state.step) + 1];
+  const int side = o.axes.side;
+  Image picture = to_image(state.picture);
+
+  // The patches that vote, and their references.
+  Random shift = at_step(Stream::shift);
+  const int shift_x = static_cast<int>(shift.below(stride)), shift_y = static_cast<int>(shift.below(stride));
+  std::vector<PatchPlace> queries, references;
+  for (int y = 0; y < o.size.height; y += stride)
+    for (int x = 0; x < o.size.width; x += stride)
+      queries.push_back({(x + shift_x) % o.size.width, (y + shift_y) % o.size.height});
+  for (const std::int64_t i :
+       draw(params_.flow_references, std::int64_t{o.places.width} * o.places.height,
+            at_step(Stream::references)))
+    references.push_back(
+        {static_cast<int>(i % o.places.width), static_cast<int>(i / o.places.width)});
+  const Vectors of_picture = project(picture, queries, o.axes);
+  const Vectors of_exemplar = project(o.exemplar, references, o.axes);
+  std::vector<float> norms(references.size());
+  for (std::size_t r = 0; r < norms.size(); ++r) {
+    const float* v = of_exemplar.at(static_cast<std::int64_t>(r));
+    norms[r] = t * t * std::inner_product(v, v + of_exemplar.dimensions, v, 0.0f);
+  }
+
+  float* prices = state.prices.data_ptr<float>();
+  if (params_.flow_price > 0) {
+    update_prices({o.places, prices}, references, of_picture, of_exemplar, norms, t,
+                  {params_.flow_price, 0.25 * side, state.step == 0 ? 4 : 2},
+                  at_step(Stream::queries));
+  }
+  std::vector<float> offsets = norms;
+  for (std::size_t r = 0; r < offsets.size(); ++r)
+    offsets[r] += prices[references[r].y * o.places.width + references[r].x];
+  const Neighbours found = nearest_references(of_picture, of_exemplar, offsets, t,
+                                              at_level(params_.flow_neighbours, finer));
+
+  // Weights exp(−|y − t x|² / 2 (1 − t)²), relative to the nearest.
+  std::vector<float> weights = found.cost;
+  const float variance = 2 * std::max(1 - t, 1e-3f) * std::max(1 - t, 1e-3f);
+  const auto k = static_cast<std::size_t>(found.neighbours);
+  for (std::size_t i = 0; i < weights.size(); i += k) {
+    const float least = weights[i];
+    float sum = 0;
+    for (std::size_t j = 0; j < k; ++j) sum += weights[i + j] = std::exp((least - weights[i + j]) / variance);
+    for (std::size_t j = 0; j < k; ++j) weights[i + j] /= sum;
+  }
+  Image goal = vote(o.size, queries, o.exemplar, references, found, weights, side, o.window);
+  if (t < bands_until) match_bands(goal, o.bands);
+  state.picture += (to_planes(goal) - state.picture) * ((next - t) / (1 - t));
+  if (++state.step == at_level(params_.flow_steps, finer)) {
+    ++state.octave;
+    state.step = 0;
+  }
+}
+
+}  // namespace gramloom::neural
