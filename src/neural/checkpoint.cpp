@@ -54,6 +54,7 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
     numbers[optimiser_prefix + name] = to_text(number);
   std::map<std::string, TensorData> tensors{{"picture", to_data(checkpoint.picture)}};
   if (checkpoint.prices.defined()) tensors["prices"] = to_data(checkpoint.prices);
+  if (checkpoint.sources.defined()) tensors["sources"] = to_data(checkpoint.sources);
   for (const auto& [name, tensor] : checkpoint.optimiser.tensors)
     tensors[optimiser_prefix + name] = to_data(tensor);
   write_tensors(file, tensors, numbers);
@@ -76,6 +77,7 @@ std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& file,
   const auto tensors = read_tensors(file);
   checkpoint.picture = to_tensor(tensors.at("picture"));
   if (tensors.contains("prices")) checkpoint.prices = to_tensor(tensors.at("prices"));
+  if (tensors.contains("sources")) checkpoint.sources = to_tensor(tensors.at("sources"));
   for_each_kept(tensors, [&](const std::string& name, const TensorData& data) {
     checkpoint.optimiser.tensors[name] = to_tensor(data);
   });

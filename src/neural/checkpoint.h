@@ -20,9 +20,9 @@ struct Checkpoint {
   std::int64_t evaluations = 0;
   double seconds = 0;
   double first_loss = 0;
-  std::int64_t octave = 0, octave_step = 0;  // of the layout
-  at::Tensor prices;                         // of the layout; undefined: none
-  at::Tensor picture;                        // (channels, height, width)
+  std::int64_t layout_step = 0;
+  at::Tensor prices, sources;  // of the layout; undefined: none
+  at::Tensor picture;         // (channels, height, width)
   SavedState optimiser;
 
   static constexpr auto fields() {
@@ -34,8 +34,7 @@ struct Checkpoint {
         Field{"evaluations", &C::evaluations, "of the loss, on all levels"},
         Field{"seconds", &C::seconds, "since the start", "seconds"},
         Field{"first_loss", &C::first_loss, "of this level"},
-        Field{"octave", &C::octave, "of the layout, 0 is the coarsest"},
-        Field{"octave_step", &C::octave_step, "steps done on this octave"}};
+        Field{"layout_step", &C::layout_step, "steps of the layout done on this level"}};
   }
 };
 

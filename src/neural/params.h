@@ -17,9 +17,10 @@ enum class Padding { circular, reflect, zero, valid };
 enum class Pooling { as_described, average, max };
 enum class RandomWeights { he_normal, orthogonal };
 enum class Optimizer { lbfgs, adam };
-/// Where a picture begins: as noise on the coarsest level, or as the layout that patch flow matching
-/// makes (flow/patch_flow.h), of which only the finest level is optimised.
-enum class Layout { noise, flow };
+/// How a level begins: with the coarser one's picture, the coarsest with noise; or with patch flow
+/// matching (flow/patch_flow.h), which makes larger and thinner things whole. `automatic` takes flow
+/// where it is the better (settings.h).
+enum class Layout { automatic, noise, flow };
 
 template <>
 inline constexpr auto enum_names<Padding> = std::to_array<std::string_view>({"circular", "reflect",
@@ -33,7 +34,7 @@ inline constexpr auto enum_names<RandomWeights> = std::to_array<std::string_view
 template <>
 inline constexpr auto enum_names<Optimizer> = std::to_array<std::string_view>({"lbfgs", "adam"});
 template <>
-inline constexpr auto enum_names<Layout> = std::to_array<std::string_view>({"noise", "flow"});
+inline constexpr auto enum_names<Layout> = std::to_array<std::string_view>({"automatic", "noise", "flow"});
 
 /// Complete settings, each to be chosen by one word. `gatys` is the loss and the
 /// optimiser of 2015, but for normalise, centre, standardise and whitening; with `network` vgg19
@@ -77,7 +78,7 @@ struct NeuralParams : LossParams, FlowParams {
   double stop_loss = 0;
   double stop_seconds = std::numeric_limits<double>::infinity();
 
-  Layout layout = Layout::noise;
+  Layout layout = Layout::automatic;
   int levels = 0;
   int coarsest_side = 24;
   double level_factor = 0.7;
@@ -139,7 +140,7 @@ struct NeuralParams : LossParams, FlowParams {
               "stop after this time",
               "seconds",
               {0, std::numeric_limits<double>::infinity()}},
-        Field{"layout", &P::layout, "where the picture begins: noise, or patch flow matching"},
+        Field{"layout", &P::layout, "how levels begin: from noise, or by patch flow matching"},
         Field{"levels",
               &P::levels,
               "levels of the image pyramid, coarse to fine; 0: by coarsest_side",

@@ -18,6 +18,7 @@ NeuralParams with_preset(Preset preset) {
       params.iterations = {120, 240, 400};
       break;
     case Preset::gatys:
+      params.layout = Layout::noise;
       params.sliced_weight = 0;
       params.spectrum_weight = 0;
       params.gram_weight = 1;

@@ -11,15 +11,31 @@
 
 namespace gramloom::neural {
 
+namespace {
+constexpr int least_octave_side = 48;  // of the exemplar, of a layout
+}
+
+Layout layout_by_size(const NeuralParams& params, Size exemplar, const Target& target) {
+  if (params.layout != Layout::automatic) return params.layout;
+  const auto shorter = [](Size size) { return std::min(size.width, size.height); };
+  const bool flow = params.levels == 0 && params.sliced_weight > 0 && params.start.empty() &&
+                    shorter(exemplar) >= 2 * least_octave_side &&
+                    shorter(target.size) >= least_octave_side;
+  return flow ? Layout::flow : Layout::noise;
+}
+
 int level_count(const NeuralParams& params, Size exemplar, const Target& target) {
   if (params.levels > 0) return params.levels;
-  if (params.layout == Layout::flow && params.start.empty()) return 1;
   const int patch = params.sliced_weight > 0
                         ? *std::max_element(params.patch_sizes.begin(), params.patch_sizes.end())
                         : 1;
+  const bool flow = layout_by_size(params, exemplar, target) == Layout::flow;
   const auto fits = [&](int level) {
     const Size own = level_size(params, exemplar, level);
     const Size result = level_size(params, target.size, level);
+    if (flow)
+      return std::min(own.width, own.height) >= least_octave_side &&
+             std::min(result.width, result.height) >= least_octave_side / 2;
     return std::min(own.width, own.height) >= std::max(params.coarsest_side, patch) &&
            (tiles_x(target.tile) || result.width >= patch) &&
            (tiles_y(target.tile) || result.height >= patch);
@@ -30,7 +46,7 @@ int level_count(const NeuralParams& params, Size exemplar, const Target& target)
 }
 
 Size level_size(const NeuralParams& params, Size whole, int level) {
-  const double factor = std::pow(params.level_factor, level);
+  const double factor = std::pow(params.layout == Layout::flow ? 0.5 : params.level_factor, level);
   const auto scaled = [&](int side) {
     return std::max(1, static_cast<int>(std::lround(side * factor)));
   };
@@ -48,7 +64,10 @@ Size canvas_size(const NeuralParams& params, const Target& target) {
 
 std::int64_t steps_down_to(const NeuralParams& params, int levels, int level) {
   std::int64_t steps = 0;
-  for (int l = level; l < levels; ++l) steps += at_level(params.iterations, l);
+  for (int l = level; l < levels; ++l) {
+    steps += at_level(params.iterations, l);
+    if (params.layout == Layout::flow) steps += at_level(params.flow_steps, l);
+  }
   return steps;
 }
 
@@ -60,6 +79,12 @@ void check_settings(const NeuralParams& params) {
   not_empty("iterations", params.iterations);
   not_empty("optimizer", params.optimizer);
   not_empty("patch_sizes", params.patch_sizes);
+  not_empty("flow_patch_sizes", params.flow_patch_sizes);
+  not_empty("flow_steps", params.flow_steps);
+  not_empty("flow_renoise", params.flow_renoise);
+  not_empty("flow_neighbours", params.flow_neighbours);
+  if (params.layout == Layout::flow && !params.start.empty())
+    throw ConfigError("layout = \"flow\" has no effect with a picture to start from: leave out layout or start");
   const double layer_weights =
       params.layer_weights.empty()
           ? 1
@@ -131,6 +156,14 @@ void check_levels(const NeuralParams& params, const NetworkDescription* network,
   const Size own = level_size(params, exemplar, levels - 1);
   const Size result = level_size(params, canvas_size(params, target), levels - 1);
   try {
+    if (params.layout == Layout::flow) {
+      const int side = at_level(params.flow_patch_sizes, levels - 1);
+      if (std::min(own.width, own.height) < side)
+        throw Error(
+            "the exemplar of {0}×{1} is too small for a layout of patches of {2}×{2}: make "
+            "flow_patch_sizes smaller, or layout = \"noise\"",
+            own.width, own.height, side);
+    }
     if (params.sliced_weight > 0) check_patches_fit(params.patch_sizes, own, result, target.tile);
     if (!network) return;
     const auto check_network = [&](Size size, bool valid_x, bool valid_y) {

@@ -3,12 +3,15 @@
 
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <optional>
 
 #include "core/threads.h"
 #include "io/image_file.h"
 #include "neural/checkpoint.h"
 #include "neural/flow/patch_flow.h"
+#include "neural/flow/sparse_detail.h"
 #include "neural/layout.h"
 #include "neural/loss/loss.h"
 #include "neural/module.h"
@@ -77,17 +80,26 @@ at::Tensor noise(Random random, int channels, Size size) {
   return planes;
 }
 
+// With the layout that `automatic` stands for.
+NeuralParams with_layout(NeuralParams params, const Image& exemplar, const Target& target) {
+  const bool automatic = params.layout == Layout::automatic;
+  params.layout = layout_by_size(params, exemplar.size(), target);
+  if (automatic && params.layout == Layout::flow && sparse_detail(exemplar) > too_sparse_for_flow)
+    params.layout = Layout::noise;
+  return params;
+}
+
 // One synthesis under way.
 class Synthesis {
  public:
   Synthesis(const NeuralParams& params, const Exemplar& layered, const Target& target,
             Random random, const Control& control)
-      : params_(params),
+      : params_(with_layout(params, layered.image, target)),
         target_(target),
         random_(random),
         control_(control),
         principal_(colour_pca(layered.image)),
-        levels_(level_count(params, layered.image.size(), target)),
+        levels_(level_count(params_, layered.image.size(), target)),
         canvas_(canvas_size(params, target)),
         start_(Clock::now()) {
     const Image& exemplar = layered.image;
@@ -102,6 +114,8 @@ class Synthesis {
       network_ = make_network(params, description_, exemplar_);
       matched_.emplace(*network_, description_, layers_);
     }
+    if (params_.layout == Layout::flow)
+      flow_.emplace(params_, exemplar_, Target{canvas_, target.tile}, random.stream(3));
     state_.identity = control.identity;
   }
 
@@ -113,11 +127,11 @@ class Synthesis {
       state_.level = state_.first_level = levels_ - 1;
     }
     last_checkpoint_ = Clock::now();
-    if (!make_layout()) return cropped(state_.picture);
     while (run_level() && state_.level > 0) {
       const bool copied = copies_layout();
       --state_.level;
       state_.iteration = 0;
+      state_.layout_step = 0;
       state_.optimiser = {};
       if (!copied) continue;
       state_.first_level = state_.level;
@@ -156,22 +170,24 @@ class Synthesis {
     return resample(to_planes(whitened(image, colours_)), size, target_.tile);
   }
 
-  bool has_layout() const { return params_.layout == Layout::flow && params_.start.empty(); }
-
-  // The layout by patch flow matching; false when the synthesis should stop.
+  // The level's layout by patch flow matching, from the coarser level's picture; false when the
+  // synthesis should stop.
   bool make_layout() {
-    if (!has_layout() || state_.evaluations > 0) return true;
-    const double scale = 1 / std::sqrt(exemplar_.square().mean().item<double>());
-    PatchFlow flow(params_, exemplar_ * scale, canvas_, random_.stream(3));
-    FlowState layout{state_.octave, state_.octave_step, state_.picture, state_.prices};
-    while (!flow.done(layout)) {
-      flow.step(layout);
-      state_.octave = layout.octave;
-      state_.octave_step = layout.step;
+    const std::int64_t steps = at_level(params_.flow_steps, state_.level);
+    FlowState layout{state_.layout_step, state_.picture, {}, state_.prices, state_.sources};
+    while (state_.layout_step < steps && !(state_.layout_step == 0 && out_of_time())) {
+      flow_->step(layout, state_.level, state_.level == state_.first_level);
+      state_.layout_step = layout.step;
       state_.picture = layout.picture;
       state_.prices = layout.prices;
+      state_.sources = layout.sources;
+      const bool go_on = report(std::numeric_limits<double>::quiet_NaN(), {});
+      keep({}, !go_on);
+      if (go_on) continue;
+      state_.picture = layout.goal;
+      return false;
     }
-    state_.picture = state_.picture / scale;
+    if (state_.level == 0) state_.picture = flow_->fitted(state_.picture);
     state_.prices = at::Tensor();
     return true;
   }
@@ -180,7 +196,7 @@ class Synthesis {
   // finer one, of at most half the exemplar's size, can be the first instead. A picture smaller
   // than the exemplar is always like one place of it.
   bool copies_layout() const {
-    const double next = std::pow(params_.level_factor, state_.level - 1);
+    const double next = std::pow(flow_ ? 0.5 : params_.level_factor, state_.level - 1);
     if (params_.levels > 0 || state_.level != state_.first_level || next > 0.5) return false;
     if (!params_.start.empty() || out_of_time()) return false;
     const at::Tensor exemplar = exemplar_of_level();
@@ -211,13 +227,15 @@ class Synthesis {
 
   // Optimises one level; false when the synthesis should stop.
   bool run_level() {
-    const Size size = level_size(params_, canvas_, state_.level);
+    const bool resumed = state_.iteration > 0;
+    if (flow_ && !resumed && !make_layout()) return false;
+    const Size size =
+        flow_ ? size_of(state_.picture) : level_size(params_, canvas_, state_.level);
     const int iterations = at_level(params_.iterations, state_.level);
     const Optimizer kind = at_level(params_.optimizer, state_.level);
-    const bool resumed = state_.iteration > 0;
     if (!state_.picture.defined())
       state_.picture = first_picture(size);
-    else if (!resumed && size != size_of(state_.picture))
+    else if (!flow_ && !resumed)
       state_.picture = enlarged(size);
 
     if (state_.iteration >= iterations || out_of_time()) return true;
@@ -248,7 +266,7 @@ class Synthesis {
             // The level is done, also for one who goes on from here later.
             if (value <= params_.stop_loss * state_.first_loss || out_of_time())
               state_.iteration = iterations;
-            keep(method, !go_on);
+            keep([&] { return method.save(); }, !go_on);
             if (!go_on) return false;
           }
           return true;
@@ -266,24 +284,25 @@ class Synthesis {
   bool report(double value, const std::vector<Term>& terms) const {
     Progress progress;
     progress.steps = steps_down_to(params_, levels_, 0);
-    progress.step = steps_down_to(params_, levels_, state_.level + 1) + state_.iteration;
+    progress.step =
+        steps_down_to(params_, levels_, state_.level + 1) + state_.layout_step + state_.iteration;
     progress.evaluations = state_.evaluations;
     progress.loss = value;
     progress.terms = terms;
     return control_.report(progress);
   }
 
-  template <class Method>
-  void keep(const Method& method, bool now) {
+  // saved(): the optimiser's state.
+  void keep(const std::function<SavedState()>& saved, bool now) {
     const double age = std::chrono::duration<double>(Clock::now() - last_checkpoint_).count();
     if (control_.checkpoint.empty() || (!now && age < seconds_between_checkpoints)) return;
     state_.seconds = seconds();
-    state_.optimiser = method.save();
+    state_.optimiser = saved ? saved() : SavedState();
     write_checkpoint(control_.checkpoint, state_);
     last_checkpoint_ = Clock::now();
   }
 
-  const NeuralParams& params_;
+  const NeuralParams params_;
   const Target& target_;
   Random random_;
   const Control& control_;
@@ -293,6 +312,7 @@ class Synthesis {
   NetworkDescription description_;
   std::vector<MatchedLayer> layers_;
   at::Tensor exemplar_;
+  std::optional<PatchFlow> flow_;  // undefined: levels begin with the coarser one's picture
   std::optional<Network> network_;
   std::optional<MatchedNetwork> matched_;
   Checkpoint state_;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <tuple>
 #include <vector>
 
@@ -10,22 +13,27 @@ namespace gramloom {
 /// Settings of patch flow matching (flow/patch_flow.h). Lists are read from the finest octave on;
 /// the last value also holds for all coarser ones.
 struct FlowParams {
-  int flow_octaves = 3;
+  double originality = 0.8;
   std::vector<int> flow_patch_sizes{8, 8, 12};
   std::vector<int> flow_steps{10, 12, 24};
-  std::vector<double> flow_renoise{0.75, 0.6};
+  std::vector<double> flow_renoise{0.65, 0.6};
   std::vector<int> flow_neighbours{3, 4, 4};
-  int flow_references = 2500;
   double flow_price = 0.2;
+
+  /// Exemplar patches, drawn anew for each step, among which neighbours are looked for.
+  std::int64_t references(std::int64_t patches) const;
+  /// The share of patches that are offered what they came from in the last step.
+  double remembered() const { return std::clamp((0.7 - originality) / 0.7, 0.0, 1.0); }
 
   static constexpr auto fields() {
     using P = FlowParams;
     return std::tuple{
-        Field{"flow_octaves",
-              &P::flow_octaves,
-              "sizes of the picture, each half the next, on which the layout is made",
+        Field{"originality",
+              &P::originality,
+              "of a layout by flow: 1 is the freest; towards 0 more of the exemplar's patches are "
+              "looked at, then larger pieces are copied, and it is more like the exemplar",
               "",
-              {1, 8}},
+              {0, 1}},
         Field{"flow_patch_sizes",
               &P::flow_patch_sizes,
               "sides of the layout's patches; lists are read from the finest octave on, and the "
@@ -47,11 +55,6 @@ struct FlowParams {
               "exemplar patches that each patch becomes a mean of",
               "",
               {1, 64}},
-        Field{"flow_references",
-              &P::flow_references,
-              "exemplar patches, drawn anew for each step, among which neighbours are looked for",
-              "",
-              {16, 1000000}},
         Field{"flow_price",
               &P::flow_price,
               "how fast an exemplar patch that is used too often becomes dearer; 0: never",
@@ -59,5 +62,13 @@ struct FlowParams {
               {0, 10}}};
   }
 };
+
+/// From 1 in 50 at originality 1 to all, but for bounds.
+inline std::int64_t FlowParams::references(std::int64_t patches) const {
+  constexpr std::int64_t least = 2500, most = 16384;
+  const double share = std::pow(0.02, originality);
+  return std::clamp(static_cast<std::int64_t>(share * static_cast<double>(patches)),
+                    std::min(least, patches), std::min(most, patches));
+}
 
 }  // namespace gramloom

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/threads.h"
 #include "neural/flow/band_match.h"
+#include "neural/flow/memory.h"
 #include "neural/flow/nearest.h"
 #include "neural/flow/patch_axes.h"
 #include "neural/flow/prices.h"
@@ -14,16 +15,18 @@
 #include "neural/picture.h"
 #include "neural/resample.h"
 #include "neural/settings.h"
+#include "signal/courses.h"
 
 namespace gramloom::neural {
 
 namespace {
 
 constexpr int axes_kept = 48;
-constexpr int stride = 2;              // between patches that vote
+constexpr double window_spread = 0.25;  // of a patch's side
+constexpr float courses_time = 0.45f;  // at which the courses are laid out
 constexpr float bands_until = 0.9f;    // the time up to which bands are matched
 
-enum class Stream : std::uint64_t { axes, noise, shift, references, queries };
+enum class Stream : std::uint64_t { axes, noise, shift, references, queries, memory };
 
 at::Tensor normal_noise(Random random, at::IntArrayRef shape) {
   at::Tensor planes = at::empty(shape, at::kFloat);
@@ -55,10 +58,23 @@ std::vector<std::int64_t> draw(std::int64_t count, std::int64_t total, Random ra
   return drawn;
 }
 
+// The courses of a layout on one axis, and its `side`: a whole number of them, cropped afterwards,
+// or stretched a little where the target tiles.
+PeriodicAxis courses_along(const Image& exemplar, Axis axis, bool tiles, int& side) {
+  const Courses courses = find_courses(exemplar, axis);
+  if (courses.contrast < clear_courses) return {};
+  const int unit = courses.alternate ? 2 : 1;
+  const double units = side / (courses.period * unit);
+  const int count =
+      unit * std::max(1, static_cast<int>(tiles ? std::round(units) : std::ceil(units - 1e-6)));
+  side = static_cast<int>(std::lround(count * courses.period));
+  return {courses.period, count};
+}
+
 }  // namespace
 
 struct PatchFlow::Octave {
-  std::int64_t index;
+  int index;
   Image exemplar;
   Size size, places;
   PatchAxes axes;
@@ -67,29 +83,21 @@ struct PatchFlow::Octave {
   std::vector<float> times;  // times[i] before step i
 };
 
-PatchFlow::PatchFlow(const FlowParams& params, const at::Tensor& exemplar, Size size, Random random)
-    : params_(params), exemplar_(exemplar), size_(size), random_(random) {}
+PatchFlow::PatchFlow(const FlowParams& params, const at::Tensor& exemplar, const Target& target,
+                     Random random)
+    : params_(params), target_(target), size_(target.size), random_(random) {
+  const double square = exemplar.square().mean().item<double>();
+  scale_ = square > 0 ? 1 / std::sqrt(square) : 1;
+  exemplar_ = exemplar * scale_;
+  const Image image = to_image(exemplar);
+  x_ = courses_along(image, Axis::x, tiles_x(target.tile), size_.width);
+  y_ = courses_along(image, Axis::y, tiles_y(target.tile), size_.height);
+}
 PatchFlow::~PatchFlow() = default;
 
-std::int64_t PatchFlow::steps() const {
-  std::int64_t steps = 0;
-  for (int o = 0; o < params_.flow_octaves; ++o) steps += at_level(params_.flow_steps, o);
-  return steps;
-}
-
-std::int64_t PatchFlow::steps_done(const FlowState& state) const {
-  std::int64_t steps = state.step;
-  for (std::int64_t o = 0; o < state.octave; ++o)
-    steps += at_level(params_.flow_steps, static_cast<int>(params_.flow_octaves - 1 - o));
-  return steps;
-}
-
-bool PatchFlow::done(const FlowState& state) const { return state.octave >= params_.flow_octaves; }
-
-PatchFlow::Octave& PatchFlow::octave(std::int64_t index) {
+PatchFlow::Octave& PatchFlow::octave(int index, bool coarsest) {
   if (octave_ && octave_->index == index) return *octave_;
-  const int finer = static_cast<int>(params_.flow_octaves - 1 - index);
-  const double factor = std::pow(0.5, finer);
+  const double factor = std::pow(0.5, index);
   const auto scaled = [&](std::int64_t side) {
     return std::max(1, static_cast<int>(std::lround(static_cast<double>(side) * factor)));
   };
@@ -98,19 +106,23 @@ PatchFlow::Octave& PatchFlow::octave(std::int64_t index) {
   o->size = {scaled(size_.width), scaled(size_.height)};
   o->exemplar = to_image(resample(exemplar_, {scaled(exemplar_.size(2)), scaled(exemplar_.size(1))},
                                   Tile::none));
-  const int side = at_level(params_.flow_patch_sizes, finer);
+  const int side = at_level(params_.flow_patch_sizes, index);
   o->places = patch_places(o->exemplar.size(), side);
   const auto part = static_cast<std::uint64_t>(index);
   o->axes = patch_axes(o->exemplar, side, axes_kept,
                        random_.stream(part).stream(std::uint64_t(Stream::axes)));
   o->bands = band_statistics(o->exemplar, Tile::none);
-  o->window = vote_window(side, finer == 0 ? 0.25 : 0.25);
-  const int steps = at_level(params_.flow_steps, finer);
-  if (index == 0) {  // the first step, towards the mean, is known
+  o->window = vote_window(side, window_spread);
+  const int steps = at_level(params_.flow_steps, index);
+  if (coarsest && x_.count + y_.count > 0) {
+    const float first = courses_time;
+    for (int i = 0; i <= steps; ++i)
+      o->times.push_back(first + (1 - first) * static_cast<float>(i) / static_cast<float>(steps));
+  } else if (coarsest) {  // the first step, towards the mean, is known
     for (int i = 1; i < steps + 2; ++i)
       o->times.push_back(static_cast<float>(i) / static_cast<float>(steps + 1));
   } else {
-    const auto first = static_cast<float>(at_level(params_.flow_renoise, finer));
+    const auto first = static_cast<float>(at_level(params_.flow_renoise, index));
     for (int i = 0; i <= steps; ++i)
       o->times.push_back(first + (1 - first) * static_cast<float>(i) / static_cast<float>(steps));
   }
@@ -118,20 +130,23 @@ PatchFlow::Octave& PatchFlow::octave(std::int64_t index) {
   return *octave_;
 }
 
-void PatchFlow::step(FlowState& state) {
-  Octave& o = octave(state.octave);
-  const int finer = static_cast<int>(params_.flow_octaves - 1 - state.octave);
-  const Random random = random_.stream(static_cast<std::uint64_t>(state.octave));
+void PatchFlow::step(FlowState& state, int index, bool coarsest) {
+  Octave& o = octave(index, coarsest);
+  const Random random = random_.stream(static_cast<std::uint64_t>(index));
   const int channels = o.exemplar.channels;
   if (state.step == 0) {
     const at::Tensor noise = normal_noise(random.stream(std::uint64_t(Stream::noise)),
                                           {channels, o.size.height, o.size.width});
     const float t = o.times[0];
-    if (state.octave == 0) {
-      at::Tensor mean = to_planes(o.exemplar).mean({1, 2}, true);
-      state.picture = noise * (1 - t) + mean * t;
+    if (coarsest) {
+      const auto scaled = [&](PeriodicAxis axis, int own, std::int64_t whole) {
+        return PeriodicAxis{axis.period * own / static_cast<double>(whole), axis.count};
+      };
+      const Image mean = periodic_part(o.exemplar, scaled(x_, o.exemplar.width, exemplar_.size(2)),
+                                       scaled(y_, o.exemplar.height, exemplar_.size(1)), o.size);
+      state.picture = noise * (1 - t) + to_planes(mean) * t;
     } else {
-      state.picture = resample(state.picture, o.size, Tile::both) * t + noise * (1 - t);
+      state.picture = resample(state.picture, o.size, Tile::both) * (scale_ * t) + noise * (1 - t);
     }
     state.prices = at::zeros({o.places.height, o.places.width}, at::kFloat);
   }
@@ -145,14 +160,14 @@ void PatchFlow::step(FlowState& state) {
 
   // The patches that vote, and their references.
   Random shift = at_step(Stream::shift);
-  const int shift_x = static_cast<int>(shift.below(stride)), shift_y = static_cast<int>(shift.below(stride));
+  const int shift_x = static_cast<int>(shift.below(patch_stride)), shift_y = static_cast<int>(shift.below(patch_stride));
   std::vector<PatchPlace> queries, references;
-  for (int y = 0; y < o.size.height; y += stride)
-    for (int x = 0; x < o.size.width; x += stride)
+  for (int y = 0; y < o.size.height; y += patch_stride)
+    for (int x = 0; x < o.size.width; x += patch_stride)
       queries.push_back({(x + shift_x) % o.size.width, (y + shift_y) % o.size.height});
+  const std::int64_t patches = std::int64_t{o.places.width} * o.places.height;
   for (const std::int64_t i :
-       draw(params_.flow_references, std::int64_t{o.places.width} * o.places.height,
-            at_step(Stream::references)))
+       draw(params_.references(patches), patches, at_step(Stream::references)))
     references.push_back(
         {static_cast<int>(i % o.places.width), static_cast<int>(i / o.places.width)});
   const Vectors of_picture = project(picture, queries, o.axes);
@@ -172,8 +187,15 @@ void PatchFlow::step(FlowState& state) {
   std::vector<float> offsets = norms;
   for (std::size_t r = 0; r < offsets.size(); ++r)
     offsets[r] += prices[references[r].y * o.places.width + references[r].x];
-  const Neighbours found = nearest_references(of_picture, of_exemplar, offsets, t,
-                                              at_level(params_.flow_neighbours, finer));
+  Neighbours found = nearest_references(of_picture, of_exemplar, offsets, t,
+                                              at_level(params_.flow_neighbours, index));
+
+  const double remembered = params_.remembered();
+  if (remembered > 0 && state.sources.defined())
+    remember(o.exemplar, {state.sources, o.size, state.step == 0},
+             {queries, of_picture, t, {o.places, prices}}, o.axes, remembered,
+             at_step(Stream::memory), references, found);
+  if (remembered > 0) state.sources = sources_of(o.size, queries, references, found);
 
   // Weights exp(−|y − t x|² / 2 (1 − t)²), relative to the nearest.
   std::vector<float> weights = found.cost;
@@ -187,11 +209,27 @@ void PatchFlow::step(FlowState& state) {
   }
   Image goal = vote(o.size, queries, o.exemplar, references, found, weights, side, o.window);
   if (t < bands_until) match_bands(goal, o.bands);
-  state.picture += (to_planes(goal) - state.picture) * ((next - t) / (1 - t));
-  if (++state.step == at_level(params_.flow_steps, finer)) {
-    ++state.octave;
-    state.step = 0;
-  }
+  state.goal = to_planes(goal);
+  state.picture += (state.goal - state.picture) * ((next - t) / (1 - t));
+  state.goal /= scale_;
+  if (++state.step == at_level(params_.flow_steps, index)) state.picture /= scale_;
+}
+
+at::Tensor PatchFlow::fitted(at::Tensor picture) const {
+  const auto fit = [&](std::int64_t axis, bool tiles, int side) {
+    const std::int64_t own = picture.size(axis);
+    if (own == side) return;
+    if (!tiles && own > side) {
+      picture = picture.narrow(axis, (own - side) / 2, side);
+      return;
+    }
+    Size size{static_cast<int>(picture.size(2)), static_cast<int>(picture.size(1))};
+    (axis == 1 ? size.height : size.width) = side;
+    picture = resample(picture.contiguous(), size, Tile::both);
+  };
+  fit(1, tiles_y(target_.tile), target_.size.height);
+  fit(2, tiles_x(target_.tile), target_.size.width);
+  return picture.contiguous();
 }
 
 }  // namespace gramloom::neural

@@ -4,17 +4,21 @@
 
 #include <memory>
 
-#include "core/image.h"
+#include "core/request.h"
 #include "core/random.h"
+#include "neural/flow/periodic_part.h"
 #include "neural/flow/params.h"
 
 namespace gramloom::neural {
 
 /// How far a layout is: enough to go on to the same bytes.
 struct FlowState {
-  std::int64_t octave = 0, step = 0;  // octave 0 is the coarsest; steps done on it
+  std::int64_t step = 0;              // steps done on this octave
   at::Tensor picture;                 // (channels, height, width)
+  at::Tensor goal;                    // what the last step moved it towards: free of noise
   at::Tensor prices;                  // (height, width) of the exemplar's patches
+  at::Tensor sources;                 // (rows, columns, 2) of the last step's patches: x, y of the
+                                      // exemplar's nearest, less the patch's own; undefined: none
 };
 
 /// Patch flow matching, in closed form and without training (Chatillon, Rabin, Tschumperlé 2025,
@@ -31,22 +35,29 @@ struct FlowState {
 /// The picture wraps on both axes. The same bytes for any number of threads.
 class PatchFlow {
  public:
-  /// exemplar: (channels, height, width), of mean square about 1. Throws Error when it is too small.
-  PatchFlow(const FlowParams& params, const at::Tensor& exemplar, Size size, Random random);
+  /// exemplar: (channels, height, width), of mean 0. Throws Error when it is too small.
+  PatchFlow(const FlowParams& params, const at::Tensor& exemplar, const Target& target,
+            Random random);
   ~PatchFlow();
 
-  std::int64_t steps() const;
-  std::int64_t steps_done(const FlowState& state) const;
-  bool done(const FlowState& state) const;
-  void step(FlowState& state);
+  /// One step on an octave: octave i is 2⁻ⁱ of the whole size. On the first
+  /// step of the coarsest one there is no picture yet, on the first of another it is the coarser
+  /// one's.
+  void step(FlowState& state, int octave, bool coarsest);
+  /// The finest octave's picture in the target's size: whole courses are cropped, or stretched where
+  /// it tiles.
+  at::Tensor fitted(at::Tensor picture) const;
 
  private:
   struct Octave;
-  Octave& octave(std::int64_t index);
+  Octave& octave(int index, bool coarsest);
 
   const FlowParams& params_;
-  at::Tensor exemplar_;
-  Size size_;
+  at::Tensor exemplar_;  // of mean square 1
+  double scale_;         // of the flow's pictures
+  Target target_;
+  PeriodicAxis x_, y_;
+  Size size_;  // of the layout: whole courses
   Random random_;
   std::unique_ptr<Octave> octave_;
 };
