@@ -22,7 +22,7 @@ struct Checkpoint {
   double first_loss = 0;
   std::int64_t layout_step = 0;
   at::Tensor prices, sources;  // of the layout; undefined: none
-  at::Tensor picture;         // (channels, height, width)
+  at::Tensor picture;          // (channels, height, width)
   SavedState optimiser;
 
   static constexpr auto fields() {

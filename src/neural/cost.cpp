@@ -57,16 +57,15 @@ double seconds_of_step(const NeuralParams& params, double evaluation, double pic
 double seconds_of_flow(const NeuralParams& params, double pixels, double of_exemplar) {
   constexpr double dimensions = 48, of_prices = 1.5;
   return of_prices * pixels / 4 *
-             static_cast<double>(params.references(static_cast<std::int64_t>(of_exemplar))) *
-             dimensions * 2 /
-             matrix_operations_per_second +
+             static_cast<double>(
+                 params.references(static_cast<std::int64_t>(of_exemplar), pixels)) *
+             dimensions * 2 / matrix_operations_per_second +
          pixels * 2e-7;
 }
 
 // All that the synthesis itself would refuse once it has begun.
 void check_possible(const NeuralParams& params, const RequestSize& request) {
   check_settings(params);
-  check_request<NeuralParams>(request);
   const Size exemplar = request.exemplars.front().size;
   const int channels = request.exemplars.front().channels;
   const Target target{request.size, request.tile};
@@ -88,12 +87,13 @@ void check_possible(const NeuralParams& params, const RequestSize& request) {
 }  // namespace
 
 Cost estimate(const NeuralParams& asked, const RequestSize& request) {
-  check_possible(asked, request);
+  check_request<NeuralParams>(request);
   const Size exemplar = request.exemplars.front().size;
   const int channels = request.exemplars.front().channels;
   const Target target{request.size, request.tile};
   NeuralParams params = asked;
   params.layout = layout_by_size(asked, exemplar, target);
+  check_possible(params, request);
   const LossSize size = loss_size(params, exemplar, canvas_size(params, target), channels);
   const LossCost loss = loss_cost(params, size);
   const bool remembers = std::find(params.optimizer.begin(), params.optimizer.end(),
@@ -107,7 +107,9 @@ Cost estimate(const NeuralParams& asked, const RequestSize& request) {
   for (int level = 0; level < level_count(params, exemplar, target); ++level) {
     const bool flow = params.layout == Layout::flow;
     const double area = std::pow(flow ? 0.5 : params.level_factor, 2 * level);
-    if (flow) cost.seconds += at_level(params.flow_steps, level) * seconds_of_flow(params, size.result * area, size.exemplar * area);
+    if (flow)
+      cost.seconds += at_level(params.flow_steps, level) *
+                      seconds_of_flow(params, size.result * area, size.exemplar * area);
     cost.seconds += at_level(params.iterations, level) *
                     seconds_of_step(params, loss.seconds * area, size.values() * area,
                                     at_level(params.optimizer, level));

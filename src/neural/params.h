@@ -18,8 +18,8 @@ enum class Pooling { as_described, average, max };
 enum class RandomWeights { he_normal, orthogonal };
 enum class Optimizer { lbfgs, adam };
 /// How a level begins: with the coarser one's picture, the coarsest with noise; or with patch flow
-/// matching (flow/patch_flow.h), which makes larger and thinner things whole. `automatic` takes flow
-/// where it is the better (settings.h).
+/// matching (flow/patch_flow.h), which makes larger and thinner things whole. `automatic` takes
+/// flow where it is the better (settings.h).
 enum class Layout { automatic, noise, flow };
 
 template <>
@@ -34,7 +34,8 @@ inline constexpr auto enum_names<RandomWeights> = std::to_array<std::string_view
 template <>
 inline constexpr auto enum_names<Optimizer> = std::to_array<std::string_view>({"lbfgs", "adam"});
 template <>
-inline constexpr auto enum_names<Layout> = std::to_array<std::string_view>({"automatic", "noise", "flow"});
+inline constexpr auto enum_names<Layout> = std::to_array<std::string_view>({"automatic", "noise",
+                                                                            "flow"});
 
 /// Complete settings, each to be chosen by one word. `gatys` is the loss and the
 /// optimiser of 2015, but for normalise, centre, standardise and whitening; with `network` vgg19

@@ -12,6 +12,7 @@ NeuralParams with_preset(Preset preset) {
       params.directions = 24;
       params.spectrum_weight = 0;
       params.iterations = {30, 60, 120, 150};
+      params.flow_steps = {4, 8, 16};
       break;
     case Preset::quality:
       params.directions = 64;

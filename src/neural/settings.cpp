@@ -84,7 +84,8 @@ void check_settings(const NeuralParams& params) {
   not_empty("flow_renoise", params.flow_renoise);
   not_empty("flow_neighbours", params.flow_neighbours);
   if (params.layout == Layout::flow && !params.start.empty())
-    throw ConfigError("layout = \"flow\" has no effect with a picture to start from: leave out layout or start");
+    throw ConfigError(
+        "layout = \"flow\" has no effect with a picture to start from: leave out layout or start");
   const double layer_weights =
       params.layer_weights.empty()
           ? 1

@@ -18,9 +18,9 @@ const T& at_level(const std::vector<T>& list, int level) {
   return list[std::min(static_cast<std::size_t>(level), list.size() - 1)];
 }
 
-/// What `layout` is for pictures of these sizes, unless the exemplar's look says otherwise: automatic
-/// is flow for two octaves or more of an exemplar of at least 48 pixels each, where patches are
-/// matched, and neither levels nor a picture to start from are given.
+/// What `layout` is for pictures of these sizes, unless the exemplar's look says otherwise:
+/// automatic is flow for two octaves or more of an exemplar of at least 48 pixels each, where
+/// patches are matched, and neither levels nor a picture to start from are given.
 Layout layout_by_size(const NeuralParams& params, Size exemplar, const Target& target);
 
 /// Levels of the pyramid. Chosen by coarsest_side, they end where a patch would no longer fit into

@@ -16,6 +16,7 @@
 #include "neural/loss/loss.h"
 #include "neural/module.h"
 #include "neural/network/make_network.h"
+#include "neural/normal_numbers.h"
 #include "neural/openmp.h"
 #include "neural/picture.h"
 #include "neural/resample.h"
@@ -30,6 +31,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double seconds_between_checkpoints = 60;
+
+enum class Stream : std::uint64_t { loss = 1, edges, layout };
 
 // The colours that the loss sees: an affine map of the exemplar's, undone for the result. Along the
 // principal axes of each layer the deviation becomes d^(1 − whitening), in units of the layer's
@@ -68,18 +71,6 @@ ColourPca seen_colours(const NeuralParams& params, const NetworkDescription& des
   return colours;
 }
 
-at::Tensor noise(Random random, int channels, Size size) {
-  at::Tensor planes = at::empty({channels, size.height, size.width}, at::kFloat);
-  float* values = planes.data_ptr<float>();
-  parallel_for(std::int64_t{channels} * size.height, 16, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t row = begin; row < end; ++row) {
-      Random own = random.stream(static_cast<std::uint64_t>(row));
-      for (int x = 0; x < size.width; ++x) values[row * size.width + x] = own.normal();
-    }
-  });
-  return planes;
-}
-
 // With the layout that `automatic` stands for.
 NeuralParams with_layout(NeuralParams params, const Image& exemplar, const Target& target) {
   const bool automatic = params.layout == Layout::automatic;
@@ -115,7 +106,7 @@ class Synthesis {
       matched_.emplace(*network_, description_, layers_);
     }
     if (params_.layout == Layout::flow)
-      flow_.emplace(params_, exemplar_, Target{canvas_, target.tile}, random.stream(3));
+      flow_.emplace(params_, exemplar_, Target{canvas_, target.tile}, random.stream(std::uint64_t(Stream::layout)));
     state_.identity = control.identity;
   }
 
@@ -163,7 +154,7 @@ class Synthesis {
     if (params_.start.empty()) {
       // In the exemplar's colours: a hue that it lacks would have to be taken out again. And with
       // the maps that go with them: this noise alone is along the axes of all layers together.
-      const at::Tensor white = noise(random_, channels, size).mul_(params_.noise);
+      const at::Tensor white = white_noise(random_, channels, size).mul_(params_.noise);
       return to_planes(whitened(unwhitened(to_image(white), principal_), colours_));
     }
     const Image image = read_start(params_, channels);
@@ -214,7 +205,7 @@ class Synthesis {
   // they are elsewhere each time.
   at::Tensor enlarged(Size size) const {
     const Size old = size_of(state_.picture);
-    Random random = random_.stream(2).stream(static_cast<std::uint64_t>(state_.level));
+    Random random = random_.stream(std::uint64_t(Stream::edges)).stream(static_cast<std::uint64_t>(state_.level));
     const auto edge = [&](bool wraps, int side) {
       return wraps ? std::int64_t{random.below(static_cast<std::uint32_t>(side))} : 0;
     };
@@ -229,8 +220,7 @@ class Synthesis {
   bool run_level() {
     const bool resumed = state_.iteration > 0;
     if (flow_ && !resumed && !make_layout()) return false;
-    const Size size =
-        flow_ ? size_of(state_.picture) : level_size(params_, canvas_, state_.level);
+    const Size size = flow_ ? size_of(state_.picture) : level_size(params_, canvas_, state_.level);
     const int iterations = at_level(params_.iterations, state_.level);
     const Optimizer kind = at_level(params_.optimizer, state_.level);
     if (!state_.picture.defined())
@@ -243,7 +233,7 @@ class Synthesis {
     malloc_trim(0);  // the buffers of the level before have other sizes, and would stay
     Loss loss(params_, matched_ ? &*matched_ : nullptr, exemplar_of_level(), exemplar_edges(),
               {size, target_.tile}, edges(),
-              random_.stream(1).stream(static_cast<std::uint64_t>(state_.level)));
+              random_.stream(std::uint64_t(Stream::loss)).stream(static_cast<std::uint64_t>(state_.level)));
     // L-BFGS needs the same function at each step; Adam takes random ones.
     const Objective objective = [&](const at::Tensor& picture, at::Tensor& gradient) {
       const auto step = kind == Optimizer::adam ? state_.iteration : 0;

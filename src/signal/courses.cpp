@@ -12,11 +12,12 @@ namespace gramloom {
 
 namespace {
 
-constexpr int longest_side = 192;        // of the picture that is looked at
+constexpr int longest_side = 192;         // of the picture that is looked at
 constexpr double slow_changes = 1.0 / 6;  // of the shorter side
-constexpr double reach = 0.6;            // of the side: the largest shift
+constexpr double reach = 0.6;             // of the side: the largest shift
 constexpr double least_period = 6;
 constexpr double step = 0.25;
+constexpr double nearly = 0.8;
 
 double interpolated(const std::vector<double>& values, double at) {
   const auto low = static_cast<std::size_t>(at);
@@ -39,8 +40,7 @@ double mean_at(const std::vector<double>& values, double period, double offset) 
 
 Courses find_courses(const Image& image, Axis axis) {
   Image small = fit_longer_side(image, longest_side);
-  const Image slow =
-      blurred(small, std::min(small.width, small.height) * slow_changes, Tile::none);
+  const Image slow = blurred(small, std::min(small.width, small.height) * slow_changes, Tile::none);
   for (std::size_t i = 0; i < small.pixels.size(); ++i) small.pixels[i] -= slow.pixels[i];
   const ShiftCorrelation self = shift_correlation(small, small);
   const int along = axis == Axis::y ? small.height : small.width;
@@ -54,11 +54,19 @@ Courses find_courses(const Image& image, Axis axis) {
     for (int sideways = -across; sideways <= across; ++sideways) sum += at(shift, sideways);
     profile.push_back(sum / (2 * across + 1));
   }
-  Courses best;
   const double longest = static_cast<double>(profile.size() - 1) / 2;
+  const auto contrast_of = [&](double period) {
+    return mean_at(profile, period, 0) - mean_at(profile, period, 0.5);
+  };
+  double most = 0;
+  for (double period = least_period; period <= longest; period += step)
+    most = std::max(most, contrast_of(period));
+  // Three courses have the contrast of one: the first peak that is nearly the highest.
+  Courses best;
   for (double period = least_period; period <= longest; period += step) {
-    const double contrast = mean_at(profile, period, 0) - mean_at(profile, period, 0.5);
-    if (contrast > best.contrast) best = {period, contrast, false};
+    const double contrast = contrast_of(period);
+    if (contrast > best.contrast && contrast >= nearly * most) best = {period, contrast, false};
+    if (best.period > 0 && period > 1.3 * best.period) break;
   }
   if (best.period > 0) {
     const int one = static_cast<int>(std::lround(best.period));

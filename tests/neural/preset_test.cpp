@@ -45,11 +45,12 @@ class EveryPreset : public testing::TestWithParam<PresetCase> {};
 
 TEST_P(EveryPreset, LowersItsLoss) {
   const auto [preset, channels, tile] = GetParam();
-  const NeuralParams params = shortened(preset);
+  NeuralParams params = shortened(preset);
   const Image exemplar = bricks({96, 96}, channels);
+  params.layout = neural::layout_by_size(params, exemplar.size(), {{96, 96}, tile});
   std::vector<Progress> steps;
   const Control control{[&](const Progress& p) {
-                          steps.push_back(p);
+                          if (p.loss == p.loss) steps.push_back(p);  // a layout has none
                           return true;
                         },
                         {},
@@ -59,6 +60,8 @@ TEST_P(EveryPreset, LowersItsLoss) {
   EXPECT_EQ(result.size(), (Size{96, 96}));
   EXPECT_EQ(result.channels, channels);
   const int levels = neural::level_count(params, exemplar.size(), {{96, 96}, tile});
+  ASSERT_EQ(steps.back().step, neural::steps_down_to(params, levels, 0));
+  params.flow_steps = {0};  // from here on: steps with a loss
   ASSERT_EQ(static_cast<std::int64_t>(steps.size()), neural::steps_down_to(params, levels, 0));
   // Steps of one level have one loss, but for its random directions.
   const auto mean = [&](auto first, auto last) {

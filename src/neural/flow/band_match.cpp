@@ -19,8 +19,7 @@ void for_each_band(const Image& image, Tile wraps, std::size_t bands, Band&& f, 
   Image remaining = image;
   for (std::size_t i = 0; i < bands; ++i) {
     Image smooth = blurred(remaining, blurs[i], wraps);
-    for (std::size_t k = 0; k < smooth.pixels.size(); ++k)
-      remaining.pixels[k] -= smooth.pixels[k];
+    for (std::size_t k = 0; k < smooth.pixels.size(); ++k) remaining.pixels[k] -= smooth.pixels[k];
     f(remaining);
     remaining = std::move(smooth);
   }

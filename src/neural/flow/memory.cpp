@@ -80,8 +80,7 @@ void remember(const Image& exemplar, const Sources& sources, const Search& searc
     }
     const PatchPlace place = offered[i].place;
     const float price = search.prices.values[place.y * search.prices.places.width + place.x];
-    const float cost =
-        search.scale * search.scale * norm + price - 2 * search.scale * product;
+    const float cost = search.scale * search.scale * norm + price - 2 * search.scale * product;
     const std::size_t first = static_cast<std::size_t>(offered[i].query) * k;
     if (cost >= found.cost[first + k - 1]) continue;
     std::size_t at = k - 1;

@@ -28,8 +28,8 @@ struct Search {
 };
 
 /// Offers a share of the patches what their own place and one beside it came from in the last step,
-/// moved along with them: pieces of the exemplar then grow beyond a patch, as in PatchMatch. What is
-/// nearer than the neighbours found takes its place among them; its place joins the references.
+/// moved along with them: pieces of the exemplar then grow beyond a patch, as in PatchMatch. What
+/// is nearer than the neighbours found takes its place among them; its place joins the references.
 void remember(const Image& exemplar, const Sources& sources, const Search& search,
               const PatchAxes& axes, double share, Random random,
               std::vector<PatchPlace>& references, Neighbours& found);

@@ -62,7 +62,8 @@ Neighbours nearest_references(const Vectors& queries, const Vectors& references,
   parallel_for(inner, 4, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t d = begin; d < end; ++d)
       for (std::int64_t r = 0; r < references.count; ++r)
-        columns.at(d)[r] = d < dimensions ? references.at(r)[d] : offsets[static_cast<std::size_t>(r)];
+        columns.at(d)[r] =
+            d < dimensions ? references.at(r)[d] : offsets[static_cast<std::size_t>(r)];
   });
   Neighbours found{neighbours, {}, {}};
   found.reference.resize(static_cast<std::size_t>(queries.count * neighbours));
@@ -71,7 +72,8 @@ Neighbours nearest_references(const Vectors& queries, const Vectors& references,
   parallel_for(blocks, 1, [&](std::int64_t begin, std::int64_t end) {
     const InThisThread in_this_thread;
     const auto rows = std::make_unique_for_overwrite<float[]>(queries_at_once * inner);
-    const auto costs = std::make_unique_for_overwrite<float[]>(queries_at_once * references_at_once);
+    const auto costs =
+        std::make_unique_for_overwrite<float[]>(queries_at_once * references_at_once);
     for (std::int64_t block = begin; block < end; ++block) {
       const std::int64_t first = block * queries_at_once;
       const std::int64_t count = std::min(queries_at_once, queries.count - first);

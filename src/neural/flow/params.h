@@ -20,8 +20,9 @@ struct FlowParams {
   std::vector<int> flow_neighbours{3, 4, 4};
   double flow_price = 0.2;
 
-  /// Exemplar patches, drawn anew for each step, among which neighbours are looked for.
-  std::int64_t references(std::int64_t patches) const;
+  /// Of the exemplar's patches, those drawn anew for each step among which neighbours are looked
+  /// for, in a picture of so many pixels.
+  std::int64_t references(std::int64_t patches, double pixels) const;
   /// The share of patches that are offered what they came from in the last step.
   double remembered() const { return std::clamp((0.7 - originality) / 0.7, 0.0, 1.0); }
 
@@ -63,12 +64,14 @@ struct FlowParams {
   }
 };
 
-/// From 1 in 50 at originality 1 to all, but for bounds.
-inline std::int64_t FlowParams::references(std::int64_t patches) const {
-  constexpr std::int64_t least = 2500, most = 16384;
+/// From 1 in 50 at originality 1 to all, but at least 1000, and at most 16384, less in pictures
+/// above 512², so that time grows no faster than they do.
+inline std::int64_t FlowParams::references(std::int64_t patches, double pixels) const {
+  constexpr double least = 1000, most = 16384, most_in_large = 2500, large = 512.0 * 512.0;
+  const double limit = std::clamp(most * large / pixels, most_in_large, most);
   const double share = std::pow(0.02, originality);
-  return std::clamp(static_cast<std::int64_t>(share * static_cast<double>(patches)),
-                    std::min(least, patches), std::min(most, patches));
+  return std::min(patches, static_cast<std::int64_t>(
+                               std::clamp(share * static_cast<double>(patches), least, limit)));
 }
 
 }  // namespace gramloom

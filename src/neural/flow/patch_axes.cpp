@@ -34,7 +34,9 @@ void copy_patch(const Image& image, PatchPlace place, int side, float* to) {
 
 }  // namespace
 
-Size patch_places(Size image, int side) { return {image.width - side + 1, image.height - side + 1}; }
+Size patch_places(Size image, int side) {
+  return {image.width - side + 1, image.height - side + 1};
+}
 
 PatchAxes patch_axes(const Image& image, int side, int count, Random random) {
   const Size places = patch_places(image.size(), side);
@@ -45,13 +47,13 @@ PatchAxes patch_axes(const Image& image, int side, int count, Random random) {
   const std::int64_t values = std::int64_t{side} * side * image.channels;
   at::Tensor patches = at::empty({patches_for_axes, values}, at::kFloat);
   for (std::int64_t i = 0; i < patches_for_axes; ++i) {
-    const PatchPlace place{static_cast<int>(random.below(static_cast<std::uint32_t>(places.width))),
-                           static_cast<int>(random.below(static_cast<std::uint32_t>(places.height)))};
+    const PatchPlace place{
+        static_cast<int>(random.below(static_cast<std::uint32_t>(places.width))),
+        static_cast<int>(random.below(static_cast<std::uint32_t>(places.height)))};
     copy_patch(image, place, side, patches.data_ptr<float>() + i * values);
   }
   patches -= patches.mean(0, true);
-  const at::Tensor covariance =
-      at::matmul(patches.t(), patches).to(at::kDouble) / patches_for_axes;
+  const at::Tensor covariance = at::matmul(patches.t(), patches).to(at::kDouble) / patches_for_axes;
   const auto [strengths, vectors] = at::linalg_eigh(covariance);  // rising; columns
   const std::int64_t kept = std::min<std::int64_t>(count, values);
   const at::Tensor strongest =

@@ -12,6 +12,7 @@
 #include "neural/flow/patch_axes.h"
 #include "neural/flow/prices.h"
 #include "neural/flow/vote.h"
+#include "neural/normal_numbers.h"
 #include "neural/picture.h"
 #include "neural/resample.h"
 #include "neural/settings.h"
@@ -23,23 +24,10 @@ namespace {
 
 constexpr int axes_kept = 48;
 constexpr double window_spread = 0.25;  // of a patch's side
-constexpr float courses_time = 0.45f;  // at which the courses are laid out
-constexpr float bands_until = 0.9f;    // the time up to which bands are matched
+constexpr float courses_time = 0.45f;   // at which the courses are laid out
+constexpr float bands_until = 0.9f;     // the time up to which bands are matched
 
 enum class Stream : std::uint64_t { axes, noise, shift, references, queries, memory };
-
-at::Tensor normal_noise(Random random, at::IntArrayRef shape) {
-  at::Tensor planes = at::empty(shape, at::kFloat);
-  const std::int64_t width = shape.back(), rows = planes.numel() / width;
-  float* values = planes.data_ptr<float>();
-  parallel_for(rows, 16, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t row = begin; row < end; ++row) {
-      Random own = random.stream(static_cast<std::uint64_t>(row));
-      for (std::int64_t x = 0; x < width; ++x) values[row * width + x] = own.normal();
-    }
-  });
-  return planes;
-}
 
 // `count` of 0 … total − 1, in rising order; all of them if there are no more.
 std::vector<std::int64_t> draw(std::int64_t count, std::int64_t total, Random random) {
@@ -104,8 +92,8 @@ PatchFlow::Octave& PatchFlow::octave(int index, bool coarsest) {
   auto o = std::make_unique<Octave>();
   o->index = index;
   o->size = {scaled(size_.width), scaled(size_.height)};
-  o->exemplar = to_image(resample(exemplar_, {scaled(exemplar_.size(2)), scaled(exemplar_.size(1))},
-                                  Tile::none));
+  o->exemplar = to_image(
+      resample(exemplar_, {scaled(exemplar_.size(2)), scaled(exemplar_.size(1))}, Tile::none));
   const int side = at_level(params_.flow_patch_sizes, index);
   o->places = patch_places(o->exemplar.size(), side);
   const auto part = static_cast<std::uint64_t>(index);
@@ -135,8 +123,8 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
   const Random random = random_.stream(static_cast<std::uint64_t>(index));
   const int channels = o.exemplar.channels;
   if (state.step == 0) {
-    const at::Tensor noise = normal_noise(random.stream(std::uint64_t(Stream::noise)),
-                                          {channels, o.size.height, o.size.width});
+    const at::Tensor noise =
+        white_noise(random.stream(std::uint64_t(Stream::noise)), channels, o.size);
     const float t = o.times[0];
     if (coarsest) {
       const auto scaled = [&](PeriodicAxis axis, int own, std::int64_t whole) {
@@ -160,14 +148,16 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
 
   // The patches that vote, and their references.
   Random shift = at_step(Stream::shift);
-  const int shift_x = static_cast<int>(shift.below(patch_stride)), shift_y = static_cast<int>(shift.below(patch_stride));
+  const int shift_x = static_cast<int>(shift.below(patch_stride)),
+            shift_y = static_cast<int>(shift.below(patch_stride));
   std::vector<PatchPlace> queries, references;
   for (int y = 0; y < o.size.height; y += patch_stride)
     for (int x = 0; x < o.size.width; x += patch_stride)
       queries.push_back({(x + shift_x) % o.size.width, (y + shift_y) % o.size.height});
   const std::int64_t patches = std::int64_t{o.places.width} * o.places.height;
+  const double pixels = static_cast<double>(o.size.width) * o.size.height;
   for (const std::int64_t i :
-       draw(params_.references(patches), patches, at_step(Stream::references)))
+       draw(params_.references(patches, pixels), patches, at_step(Stream::references)))
     references.push_back(
         {static_cast<int>(i % o.places.width), static_cast<int>(i / o.places.width)});
   const Vectors of_picture = project(picture, queries, o.axes);
@@ -188,7 +178,7 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
   for (std::size_t r = 0; r < offsets.size(); ++r)
     offsets[r] += prices[references[r].y * o.places.width + references[r].x];
   Neighbours found = nearest_references(of_picture, of_exemplar, offsets, t,
-                                              at_level(params_.flow_neighbours, index));
+                                        at_level(params_.flow_neighbours, index));
 
   const double remembered = params_.remembered();
   if (remembered > 0 && state.sources.defined())
@@ -204,7 +194,8 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
   for (std::size_t i = 0; i < weights.size(); i += k) {
     const float least = weights[i];
     float sum = 0;
-    for (std::size_t j = 0; j < k; ++j) sum += weights[i + j] = std::exp((least - weights[i + j]) / variance);
+    for (std::size_t j = 0; j < k; ++j)
+      sum += weights[i + j] = std::exp((least - weights[i + j]) / variance);
     for (std::size_t j = 0; j < k; ++j) weights[i + j] /= sum;
   }
   Image goal = vote(o.size, queries, o.exemplar, references, found, weights, side, o.window);

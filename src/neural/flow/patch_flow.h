@@ -4,21 +4,21 @@
 
 #include <memory>
 
-#include "core/request.h"
 #include "core/random.h"
-#include "neural/flow/periodic_part.h"
+#include "core/request.h"
 #include "neural/flow/params.h"
+#include "neural/flow/periodic_part.h"
 
 namespace gramloom::neural {
 
 /// How far a layout is: enough to go on to the same bytes.
 struct FlowState {
-  std::int64_t step = 0;              // steps done on this octave
-  at::Tensor picture;                 // (channels, height, width)
-  at::Tensor goal;                    // what the last step moved it towards: free of noise
-  at::Tensor prices;                  // (height, width) of the exemplar's patches
-  at::Tensor sources;                 // (rows, columns, 2) of the last step's patches: x, y of the
-                                      // exemplar's nearest, less the patch's own; undefined: none
+  std::int64_t step = 0;  // steps done on this octave
+  at::Tensor picture;     // (channels, height, width)
+  at::Tensor goal;        // what the last step moved it towards: free of noise
+  at::Tensor prices;      // (height, width) of the exemplar's patches
+  at::Tensor sources;     // (rows, columns, 2) of the last step's patches: x, y of the
+                          // exemplar's nearest, less the patch's own; undefined: none
 };
 
 /// Patch flow matching, in closed form and without training (Chatillon, Rabin, Tschumperlé 2025,
@@ -29,8 +29,8 @@ struct FlowState {
 ///
 /// Ours: a price on each exemplar patch, raised while it is used more than others and lowered while
 /// less, so that all are used alike (semi-discrete optimal transport); the deviations of Laplacian
-/// bands are the exemplar's (means of patches are blurred); the candidates are drawn anew each step,
-/// so that the picture is no copy.
+/// bands are the exemplar's (means of patches are blurred); the candidates are drawn anew each
+/// step, so that the picture is no copy.
 ///
 /// The picture wraps on both axes. The same bytes for any number of threads.
 class PatchFlow {
@@ -44,8 +44,8 @@ class PatchFlow {
   /// step of the coarsest one there is no picture yet, on the first of another it is the coarser
   /// one's.
   void step(FlowState& state, int octave, bool coarsest);
-  /// The finest octave's picture in the target's size: whole courses are cropped, or stretched where
-  /// it tiles.
+  /// The finest octave's picture in the target's size: whole courses are cropped, or stretched
+  /// where it tiles.
   at::Tensor fitted(at::Tensor picture) const;
 
  private:

@@ -31,7 +31,9 @@ int cells_of(PeriodicAxis axis) {
   return axis.count > 0 ? std::max(1, static_cast<int>(std::lround(axis.period))) : 1;
 }
 
-double phase_in_exemplar(PeriodicAxis axis, int at) { return axis.count > 0 ? at / axis.period : 0; }
+double phase_in_exemplar(PeriodicAxis axis, int at) {
+  return axis.count > 0 ? at / axis.period : 0;
+}
 double phase_in_picture(PeriodicAxis axis, int at, int side) {
   return static_cast<double>(at) * axis.count / side;
 }

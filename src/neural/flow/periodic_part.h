@@ -11,8 +11,8 @@ struct PeriodicAxis {
   int count = 0;
 };
 
-/// What of an exemplar repeats: its mean over all courses, laid out in a picture of that size. On an
-/// axis without courses it is the mean over that axis.
+/// What of an exemplar repeats: its mean over all courses, laid out in a picture of that size. On
+/// an axis without courses it is the mean over that axis.
 Image periodic_part(const Image& exemplar, PeriodicAxis x, PeriodicAxis y, Size size);
 
 }  // namespace gramloom::neural

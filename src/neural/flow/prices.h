@@ -17,8 +17,8 @@ struct PriceSteps {
 };
 
 /// Raises the price of references that queries use more often than others, lowers the others', so
-/// that all are used alike: dual ascent of semi-discrete optimal transport. Of many queries some are
-/// drawn. Offsets and scale are those of nearest_references(), without prices.
+/// that all are used alike: dual ascent of semi-discrete optimal transport. Of many queries some
+/// are drawn. Offsets and scale are those of nearest_references(), without prices.
 void update_prices(Prices prices, const std::vector<PatchPlace>& places, const Vectors& queries,
                    const Vectors& references, const std::vector<float>& offsets, float scale,
                    const PriceSteps& steps, Random random);

@@ -11,7 +11,6 @@ namespace {
 constexpr float least_weight = 1e-4f;  // below it a patch can't be seen
 constexpr int rows_at_once = 16;
 
-
 }  // namespace
 
 std::vector<float> vote_window(int side, double spread) {
