@@ -106,7 +106,8 @@ class Synthesis {
       matched_.emplace(*network_, description_, layers_);
     }
     if (params_.layout == Layout::flow)
-      flow_.emplace(params_, exemplar_, Target{canvas_, target.tile}, random.stream(std::uint64_t(Stream::layout)));
+      flow_.emplace(params_, exemplar_, Target{canvas_, target.tile},
+                    random.stream(std::uint64_t(Stream::layout)));
     state_.identity = control.identity;
   }
 
@@ -205,7 +206,8 @@ class Synthesis {
   // they are elsewhere each time.
   at::Tensor enlarged(Size size) const {
     const Size old = size_of(state_.picture);
-    Random random = random_.stream(std::uint64_t(Stream::edges)).stream(static_cast<std::uint64_t>(state_.level));
+    Random random = random_.stream(std::uint64_t(Stream::edges))
+                        .stream(static_cast<std::uint64_t>(state_.level));
     const auto edge = [&](bool wraps, int side) {
       return wraps ? std::int64_t{random.below(static_cast<std::uint32_t>(side))} : 0;
     };
@@ -233,7 +235,8 @@ class Synthesis {
     malloc_trim(0);  // the buffers of the level before have other sizes, and would stay
     Loss loss(params_, matched_ ? &*matched_ : nullptr, exemplar_of_level(), exemplar_edges(),
               {size, target_.tile}, edges(),
-              random_.stream(std::uint64_t(Stream::loss)).stream(static_cast<std::uint64_t>(state_.level)));
+              random_.stream(std::uint64_t(Stream::loss))
+                  .stream(static_cast<std::uint64_t>(state_.level)));
     // L-BFGS needs the same function at each step; Adam takes random ones.
     const Objective objective = [&](const at::Tensor& picture, at::Tensor& gradient) {
       const auto step = kind == Optimizer::adam ? state_.iteration : 0;

@@ -116,6 +116,7 @@ struct Layout {
 };
 Layout layout_of_result(const Image& exemplar, double copy_limit) {
   NeuralParams params;
+  params.layout = gramloom::Layout::noise;
   params.iterations = {2, 10, 30, 250};
   params.copy_limit = copy_limit;
   Trace trace;
@@ -140,6 +141,7 @@ TEST(NeuralPatches, LeaveOutALevelThatBringsBackTheLayout) {
 TEST(NeuralPatches, LeaveItOutAlsoWhenInterruptedThere) {
   const Image exemplar = scene({128, 128});
   NeuralParams params;
+  params.layout = gramloom::Layout::noise;
   params.iterations = {2, 3, 4, 10, 250};
   const Target target{{128, 128}, Tile::none};
   Trace whole;
@@ -162,6 +164,7 @@ TEST(NeuralPatches, LeaveItOutAlsoWhenInterruptedThere) {
 // Nor of a result smaller than the exemplar, which is like some place of it.
 TEST(NeuralPatches, KeepAllLevelsOfASmallResult) {
   NeuralParams params;
+  params.layout = gramloom::Layout::noise;
   params.iterations = {1, 2, 5, 60};
   const Image exemplar = scene({128, 128});
   const Target target{{64, 64}, Tile::both};
@@ -172,6 +175,7 @@ TEST(NeuralPatches, KeepAllLevelsOfASmallResult) {
 
 TEST(NeuralPatches, KeepAllLevelsOfATexture) {
   NeuralParams params;
+  params.layout = gramloom::Layout::noise;
   params.iterations = {1, 5, 10, 100};
   const Image exemplar = neural::to_image(
       neural::resample(neural::numbers({3, 40, 40}, 5) * 0.2 + 0.5, {128, 128}, Tile::none));

@@ -296,6 +296,7 @@ TEST_P(Interrupted, ACheckpointOfAnotherSynthesisIsNotUsed) {
 // Patches and the other terms of a picture, no network.
 TEST(Neural, LevelsByTheCoarsestSide) {
   NeuralParams params;
+  params.layout = Layout::noise;
   params.levels = 0;
   params.level_factor = 0.5;
   params.coarsest_side = 32;

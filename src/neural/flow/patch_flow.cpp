@@ -127,6 +127,7 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
         white_noise(random.stream(std::uint64_t(Stream::noise)), channels, o.size);
     const float t = o.times[0];
     if (coarsest) {
+      state.sources = at::Tensor();  // of a layout that was thrown away
       const auto scaled = [&](PeriodicAxis axis, int own, std::int64_t whole) {
         return PeriodicAxis{axis.period * own / static_cast<double>(whole), axis.count};
       };

@@ -52,7 +52,7 @@ class PatchFlow {
   struct Octave;
   Octave& octave(int index, bool coarsest);
 
-  const FlowParams& params_;
+  FlowParams params_;
   at::Tensor exemplar_;  // of mean square 1
   double scale_;         // of the flow's pictures
   Target target_;
