@@ -73,7 +73,7 @@ struct NeuralParams : LossParams, FlowParams {
   double whitening = 0.4;
 
   std::vector<Optimizer> optimizer{Optimizer::adam};
-  std::vector<int> iterations{80, 160, 300};
+  std::vector<int> iterations{160, 240, 400};
   double learning_rate = 0.08;
   int history = 20;
   double stop_loss = 0;

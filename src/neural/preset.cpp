@@ -12,11 +12,11 @@ NeuralParams with_preset(Preset preset) {
       params.directions = 24;
       params.spectrum_weight = 0;
       params.iterations = {30, 60, 120, 150};
-      params.flow_steps = {4, 8, 16};
+      params.flow_steps = {4, 6, 12};
       break;
     case Preset::quality:
       params.directions = 64;
-      params.iterations = {120, 240, 400};
+      params.iterations = {240, 360, 600};
       break;
     case Preset::gatys:
       params.layout = Layout::noise;

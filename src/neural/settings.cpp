@@ -18,8 +18,11 @@ constexpr int least_octave_side = 48;  // of the exemplar, of a layout
 Layout layout_by_size(const NeuralParams& params, Size exemplar, const Target& target) {
   if (params.layout != Layout::automatic) return params.layout;
   const auto shorter = [](Size size) { return std::min(size.width, size.height); };
-  const bool flow = params.levels == 0 && params.sliced_weight > 0 && params.start.empty() &&
-                    shorter(exemplar) >= 2 * least_octave_side &&
+  const NeuralParams usual;
+  const bool as_usual =
+      params.coarsest_side == usual.coarsest_side && params.level_factor == usual.level_factor;
+  const bool flow = params.levels == 0 && as_usual && params.sliced_weight > 0 &&
+                    params.start.empty() && shorter(exemplar) >= 2 * least_octave_side &&
                     shorter(target.size) >= least_octave_side;
   return flow ? Layout::flow : Layout::noise;
 }
@@ -83,6 +86,14 @@ void check_settings(const NeuralParams& params) {
   not_empty("flow_steps", params.flow_steps);
   not_empty("flow_renoise", params.flow_renoise);
   not_empty("flow_neighbours", params.flow_neighbours);
+  const NeuralParams usual;
+  if (params.layout == Layout::flow &&
+      (params.coarsest_side != usual.coarsest_side || params.level_factor != usual.level_factor))
+    throw ConfigError(
+        "coarsest_side and level_factor have no effect with layout = \"flow\", whose levels are "
+        "octaves: leave them out, or say how many with levels");
+  if (params.layout == Layout::noise && params.originality != usual.originality)
+    throw ConfigError("originality has no effect with layout = \"noise\": leave out one of them");
   if (params.layout == Layout::flow && !params.start.empty())
     throw ConfigError(
         "layout = \"flow\" has no effect with a picture to start from: leave out layout or start");

@@ -272,6 +272,16 @@ TEST(Layout, IsAutomaticallyFlowWhereThereAreTwoOctaves) {
   given.levels = 3;
   EXPECT_EQ(chosen(given, {256, 256}, {256, 256}), Layout::noise);
   given = params;
+  given.coarsest_side = 16;
+  EXPECT_EQ(chosen(given, {256, 256}, {256, 256}), Layout::noise);
+  given.layout = Layout::flow;
+  EXPECT_THROW(check_settings(given), ConfigError);
+  given = params;
+  given.originality = 0.5;
+  EXPECT_NO_THROW(check_settings(given));
+  given.layout = Layout::noise;
+  EXPECT_THROW(check_settings(given), ConfigError);
+  given = params;
   given.layout = Layout::flow;
   EXPECT_EQ(chosen(given, {50, 50}, {256, 256}), Layout::flow);
 }

@@ -15,7 +15,7 @@ namespace gramloom {
 struct FlowParams {
   double originality = 0.8;
   std::vector<int> flow_patch_sizes{8, 8, 12};
-  std::vector<int> flow_steps{10, 12, 24};
+  std::vector<int> flow_steps{6, 8, 16};
   std::vector<double> flow_renoise{0.65, 0.6};
   std::vector<int> flow_neighbours{3, 4, 4};
   double flow_price = 0.2;
@@ -64,14 +64,15 @@ struct FlowParams {
   }
 };
 
-/// From 1 in 50 at originality 1 to all, but at least 1000, and at most 16384, less in pictures
-/// above 512², so that time grows no faster than they do.
+/// From 1 in 50 at originality 1 to all, but at least 1500 to 6500, and at most 16384, less in
+/// pictures above 512², so that time grows no faster than they do.
 inline std::int64_t FlowParams::references(std::int64_t patches, double pixels) const {
-  constexpr double least = 1000, most = 16384, most_in_large = 2500, large = 512.0 * 512.0;
+  constexpr double most = 16384, most_in_large = 2500, large = 512.0 * 512.0;
   const double limit = std::clamp(most * large / pixels, most_in_large, most);
+  const double least = std::min(limit, 1500 + 5000 * (1 - originality));
   const double share = std::pow(0.02, originality);
-  return std::min(patches, static_cast<std::int64_t>(
-                               std::clamp(share * static_cast<double>(patches), least, limit)));
+  return std::min(patches, static_cast<std::int64_t>(std::clamp(
+                               share * static_cast<double>(patches), least, limit)));
 }
 
 }  // namespace gramloom
