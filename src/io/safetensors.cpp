@@ -229,7 +229,7 @@ void write_tensors(const fs::path& path, const std::map<std::string, TensorData>
                    const std::map<std::string, std::string>& metadata) {
   SortedJson header = SortedJson::object();
   if (!metadata.empty()) header[metadata_key] = metadata;
-  std::string data;
+  std::size_t end = 0;
   for (const auto& [name, tensor] : tensors) {
     std::int64_t count = 1;
     for (const std::int64_t side : tensor.shape)
@@ -237,17 +237,20 @@ void write_tensors(const fs::path& path, const std::map<std::string, TensorData>
     if (count < 0 || static_cast<std::uint64_t>(count) != tensor.values.size())
       throw Error("{}: tensor '{}' has {} values, which is not its shape", path.string(), name,
                   tensor.values.size());
-    const std::size_t begin = data.size();
-    data.append(reinterpret_cast<const char*>(tensor.values.data()),
-                tensor.values.size() * sizeof(float));
-    header[name] = {
-        {"dtype", "F32"}, {"shape", tensor.shape}, {"data_offsets", {begin, data.size()}}};
+    const std::size_t begin = end;
+    end += tensor.values.size() * sizeof(float);
+    header[name] = {{"dtype", "F32"}, {"shape", tensor.shape}, {"data_offsets", {begin, end}}};
   }
   std::string text = to_text(header);
   text.resize((text.size() + 7) / 8 * 8, ' ');  // the format's padding: the data begins aligned
   const std::uint64_t length = text.size();
-  write_text(path,
-             std::string(reinterpret_cast<const char*>(&length), sizeof length) + text + data);
+  std::string file;  // at once of its size: a large picture's checkpoint takes gigabytes
+  file.reserve(sizeof length + text.size() + end);
+  file.append(reinterpret_cast<const char*>(&length), sizeof length).append(text);
+  for (const auto& [name, tensor] : tensors)
+    file.append(reinterpret_cast<const char*>(tensor.values.data()),
+                tensor.values.size() * sizeof(float));
+  write_text(path, file);
 }
 
 }  // namespace gramloom
