@@ -103,6 +103,10 @@ Cost estimate(const NeuralParams& asked, const RequestSize& request) {
   Cost cost;
   cost.bytes = loss.bytes + sizeof(float) * (kept + optimiser_values * size.values() +
                                              4 * size.exemplar * channels);
+  if (params.layout == Layout::flow)  // vectors of patches and their neighbours, and pictures
+    cost.bytes =
+        std::max(cost.bytes, size.result * (48 * (1 + 2 * params.remembered()) + 40) +
+                                 sizeof(float) * channels * (8 * size.result + 8 * size.exemplar));
   cost.seconds = start_seconds + size.of_exemplar.filters / 2 / matrix_operations_per_second;
   for (int level = 0; level < level_count(params, exemplar, target); ++level) {
     const bool flow = params.layout == Layout::flow;

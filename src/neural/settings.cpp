@@ -92,8 +92,14 @@ void check_settings(const NeuralParams& params) {
     throw ConfigError(
         "coarsest_side and level_factor have no effect with layout = \"flow\", whose levels are "
         "octaves: leave them out, or say how many with levels");
-  if (params.layout == Layout::noise && params.originality != usual.originality)
-    throw ConfigError("originality has no effect with layout = \"noise\": leave out one of them");
+  if (params.layout == Layout::noise) {
+    const NeuralParams preset = with_preset(params.preset);
+    for_each_field<FlowParams>([&](const auto& field) {
+      if (params.*field.member != preset.*field.member)
+        throw ConfigError("{} has no effect without a layout by flow (layout = \"flow\")",
+                          field.name);
+    });
+  }
   if (params.layout == Layout::flow && !params.start.empty())
     throw ConfigError(
         "layout = \"flow\" has no effect with a picture to start from: leave out layout or start");
@@ -169,12 +175,15 @@ void check_levels(const NeuralParams& params, const NetworkDescription* network,
   const Size result = level_size(params, canvas_size(params, target), levels - 1);
   try {
     if (params.layout == Layout::flow) {
-      const int side = at_level(params.flow_patch_sizes, levels - 1);
-      if (std::min(own.width, own.height) < side)
+      for (int level = 0; level < levels; ++level) {
+        const int side = at_level(params.flow_patch_sizes, level);
+        const Size at = level_size(params, exemplar, level);
+        if (std::min(at.width, at.height) >= side) continue;
         throw Error(
             "the exemplar of {0}×{1} is too small for a layout of patches of {2}×{2}: make "
             "flow_patch_sizes smaller, or layout = \"noise\"",
-            own.width, own.height, side);
+            at.width, at.height, side);
+      }
     }
     if (params.sliced_weight > 0) check_patches_fit(params.patch_sizes, own, result, target.tile);
     if (!network) return;

@@ -72,10 +72,13 @@ ColourPca seen_colours(const NeuralParams& params, const NetworkDescription& des
 }
 
 // With the layout that `automatic` stands for.
-NeuralParams with_layout(NeuralParams params, const Image& exemplar, const Target& target) {
+NeuralParams with_layout(NeuralParams params, const Exemplar& layered, const Target& target) {
+  const Image& exemplar = layered.image;
+  const int colours = channel_blocks(layered.layers, exemplar.channels).front().count;
   const bool automatic = params.layout == Layout::automatic;
   params.layout = layout_by_size(params, exemplar.size(), target);
-  if (automatic && params.layout == Layout::flow && sparse_detail(exemplar) > too_sparse_for_flow)
+  if (automatic && params.layout == Layout::flow &&
+      sparse_detail(extract_channels(exemplar, 0, colours)) > too_sparse_for_flow)
     params.layout = Layout::noise;
   return params;
 }
@@ -85,7 +88,7 @@ class Synthesis {
  public:
   Synthesis(const NeuralParams& params, const Exemplar& layered, const Target& target,
             Random random, const Control& control)
-      : params_(with_layout(params, layered.image, target)),
+      : params_(with_layout(params, layered, target)),
         target_(target),
         random_(random),
         control_(control),
@@ -167,7 +170,11 @@ class Synthesis {
   bool make_layout() {
     const std::int64_t steps = at_level(params_.flow_steps, state_.level);
     FlowState layout{state_.layout_step, state_.picture, {}, state_.prices, state_.sources};
-    while (state_.layout_step < steps && !(state_.layout_step == 0 && out_of_time())) {
+    // Out of time, the coarser picture is only made larger; but there must be one.
+    const auto skipped = [&] {
+      return state_.layout_step == 0 && state_.picture.defined() && out_of_time();
+    };
+    while (state_.layout_step < steps && !skipped()) {
       flow_->step(layout, state_.level, state_.level == state_.first_level);
       state_.layout_step = layout.step;
       state_.picture = layout.picture;

@@ -63,10 +63,10 @@ std::vector<float> factors(const std::vector<float>& goal, const std::vector<flo
 
 }  // namespace
 
-BandStatistics band_statistics(const Image& image, Tile wraps) {
+BandStatistics band_statistics(const Image& image, Tile wraps, Size picture) {
   BandStatistics statistics;
   for_each_band(
-      image, wraps, bands_of(image.size()),
+      image, wraps, std::min(bands_of(image.size()), bands_of(picture)),
       [&](const Image& band) { statistics.deviation.push_back(moments(band).deviation); },
       [&](const Image& rest) {
         const Moments m = moments(rest);

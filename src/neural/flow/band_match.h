@@ -10,7 +10,8 @@ struct BandStatistics {
   std::vector<std::vector<float>> deviation;  // of each band, then of the rest; each per channel
   std::vector<float> mean;                    // of the rest
 };
-BandStatistics band_statistics(const Image& image, Tile wraps);
+/// Only bands that a picture of size `picture` has, too.
+BandStatistics band_statistics(const Image& image, Tile wraps, Size picture);
 
 /// Gives each band of an image that wraps the exemplar's deviation; a factor is at least ½ and at
 /// most 3.

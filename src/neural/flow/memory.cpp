@@ -66,12 +66,17 @@ void remember(const Image& exemplar, const Sources& sources, const Search& searc
               const PatchAxes& axes, double share, Random random,
               std::vector<PatchPlace>& references, Neighbours& found) {
   const std::vector<Offer> offered = offers(sources, search, share, random);
-  std::vector<PatchPlace> places;
-  for (const Offer& offer : offered) places.push_back(offer.place);
-  const Vectors vectors = project(exemplar, places, axes);
+  constexpr std::size_t at_once = 1 << 16;  // of millions in a large picture
+  Vectors vectors;
   const auto k = static_cast<std::size_t>(found.neighbours);
   for (std::size_t i = 0; i < offered.size(); ++i) {
-    const float* v = vectors.at(static_cast<std::int64_t>(i));
+    if (i % at_once == 0) {
+      std::vector<PatchPlace> places;
+      for (std::size_t j = i; j < std::min(i + at_once, offered.size()); ++j)
+        places.push_back(offered[j].place);
+      vectors = project(exemplar, places, axes);
+    }
+    const float* v = vectors.at(static_cast<std::int64_t>(i % at_once));
     const float* q = search.of_picture.at(offered[i].query);
     float norm = 0, product = 0;
     for (std::int64_t d = 0; d < vectors.dimensions; ++d) {
@@ -83,6 +88,13 @@ void remember(const Image& exemplar, const Sources& sources, const Search& searc
     const float cost = search.scale * search.scale * norm + price - 2 * search.scale * product;
     const std::size_t first = static_cast<std::size_t>(offered[i].query) * k;
     if (cost >= found.cost[first + k - 1]) continue;
+    const bool there = std::ranges::any_of(
+        found.reference.begin() + static_cast<std::ptrdiff_t>(first),
+        found.reference.begin() + static_cast<std::ptrdiff_t>(first + k), [&](std::int32_t r) {
+          const PatchPlace other = references[static_cast<std::size_t>(r)];
+          return other.x == place.x && other.y == place.y;
+        });
+    if (there) continue;
     std::size_t at = k - 1;
     for (; at > 0 && found.cost[first + at - 1] > cost; --at) {
       found.cost[first + at] = found.cost[first + at - 1];

@@ -71,8 +71,8 @@ inline std::int64_t FlowParams::references(std::int64_t patches, double pixels) 
   const double limit = std::clamp(most * large / pixels, most_in_large, most);
   const double least = std::min(limit, 1500 + 5000 * (1 - originality));
   const double share = std::pow(0.02, originality);
-  return std::min(patches, static_cast<std::int64_t>(std::clamp(
-                               share * static_cast<double>(patches), least, limit)));
+  return std::min(patches, static_cast<std::int64_t>(
+                               std::clamp(share * static_cast<double>(patches), least, limit)));
 }
 
 }  // namespace gramloom

@@ -13,6 +13,7 @@
 #include "neural/flow/prices.h"
 #include "neural/flow/vote.h"
 #include "neural/normal_numbers.h"
+#include "neural/openmp.h"
 #include "neural/picture.h"
 #include "neural/resample.h"
 #include "neural/settings.h"
@@ -47,15 +48,18 @@ std::vector<std::int64_t> draw(std::int64_t count, std::int64_t total, Random ra
 }
 
 // The courses of a layout on one axis, and its `side`: a whole number of them, cropped afterwards,
-// or stretched a little where the target tiles.
+// or stretched or pressed where the target tiles: by a third at most, or there are none.
 PeriodicAxis courses_along(const Image& exemplar, Axis axis, bool tiles, int& side) {
   const Courses courses = find_courses(exemplar, axis);
   if (courses.contrast < clear_courses) return {};
+  constexpr double most_stretched = 1.35;
   const int unit = courses.alternate ? 2 : 1;
   const double units = side / (courses.period * unit);
   const int count =
       unit * std::max(1, static_cast<int>(tiles ? std::round(units) : std::ceil(units - 1e-6)));
-  side = static_cast<int>(std::lround(count * courses.period));
+  const double whole = count * courses.period;
+  if (tiles && (whole > most_stretched * side || side > most_stretched * whole)) return {};
+  side = static_cast<int>(std::lround(whole));
   return {courses.period, count};
 }
 
@@ -74,7 +78,10 @@ struct PatchFlow::Octave {
 PatchFlow::PatchFlow(const FlowParams& params, const at::Tensor& exemplar, const Target& target,
                      Random random)
     : params_(params), target_(target), size_(target.size), random_(random) {
-  const double square = exemplar.square().mean().item<double>();
+  const double square = [&] {
+    const InThisThread in_this_thread;  // the same sum for any number of threads
+    return exemplar.square().mean().item<double>();
+  }();
   scale_ = square > 0 ? 1 / std::sqrt(square) : 1;
   exemplar_ = exemplar * scale_;
   const Image image = to_image(exemplar);
@@ -99,7 +106,7 @@ PatchFlow::Octave& PatchFlow::octave(int index, bool coarsest) {
   const auto part = static_cast<std::uint64_t>(index);
   o->axes = patch_axes(o->exemplar, side, axes_kept,
                        random_.stream(part).stream(std::uint64_t(Stream::axes)));
-  o->bands = band_statistics(o->exemplar, Tile::none);
+  o->bands = band_statistics(o->exemplar, Tile::none, o->size);
   o->window = vote_window(side, window_spread);
   const int steps = at_level(params_.flow_steps, index);
   if (coarsest && x_.count + y_.count > 0) {
@@ -161,7 +168,7 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
        draw(params_.references(patches, pixels), patches, at_step(Stream::references)))
     references.push_back(
         {static_cast<int>(i % o.places.width), static_cast<int>(i / o.places.width)});
-  const Vectors of_picture = project(picture, queries, o.axes);
+  Vectors of_picture = project(picture, queries, o.axes);
   const Vectors of_exemplar = project(o.exemplar, references, o.axes);
   std::vector<float> norms(references.size());
   for (std::size_t r = 0; r < norms.size(); ++r) {
@@ -188,6 +195,8 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
              at_step(Stream::memory), references, found);
   if (remembered > 0) state.sources = sources_of(o.size, queries, references, found);
 
+  of_picture = {};  // large
+
   // Weights exp(−|y − t x|² / 2 (1 − t)²), relative to the nearest.
   std::vector<float> weights = found.cost;
   const float variance = 2 * std::max(1 - t, 1e-3f) * std::max(1 - t, 1e-3f);
@@ -207,7 +216,8 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
   if (++state.step == at_level(params_.flow_steps, index)) state.picture /= scale_;
 }
 
-at::Tensor PatchFlow::fitted(at::Tensor picture) const {
+at::Tensor PatchFlow::fitted(at::Tensor picture) {
+  octave_.reset();  // large, and not needed any more
   const auto fit = [&](std::int64_t axis, bool tiles, int side) {
     const std::int64_t own = picture.size(axis);
     if (own == side) return;

@@ -35,7 +35,7 @@ struct FlowState {
 /// The picture wraps on both axes. The same bytes for any number of threads.
 class PatchFlow {
  public:
-  /// exemplar: (channels, height, width), of mean 0. Throws Error when it is too small.
+  /// exemplar: (channels, height, width). Throws Error when it is too small.
   PatchFlow(const FlowParams& params, const at::Tensor& exemplar, const Target& target,
             Random random);
   ~PatchFlow();
@@ -44,9 +44,9 @@ class PatchFlow {
   /// step of the coarsest one there is no picture yet, on the first of another it is the coarser
   /// one's.
   void step(FlowState& state, int octave, bool coarsest);
-  /// The finest octave's picture in the target's size: whole courses are cropped, or stretched
-  /// where it tiles.
-  at::Tensor fitted(at::Tensor picture) const;
+  /// At the end: the finest octave's picture in the target's size: whole courses are cropped, or
+  /// stretched where it tiles.
+  at::Tensor fitted(at::Tensor picture);
 
  private:
   struct Octave;

@@ -59,7 +59,9 @@ void update_prices(Prices prices, const std::vector<PatchPlace>& places, const V
     double sum = 0;
     for (std::size_t p = 0; p < use.pixels.size(); ++p) {
       const double used = use.pixels[p] / (there.pixels[p] + 1e-9);
-      const double change = std::clamp(std::log(std::max(used, least_use)), -2.0, 2.0);
+      // Of places far from all references nothing is known.
+      const double change =
+          there.pixels[p] > 1e-6f ? std::clamp(std::log(std::max(used, least_use)), -2.0, 2.0) : 0;
       prices.values[p] += static_cast<float>(rate * mean_distance * change);
       sum += prices.values[p];
     }
