@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/threads.h"
 #include "signal/blur.h"
 
 namespace gramloom::neural {

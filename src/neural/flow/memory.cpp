@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
 namespace gramloom::neural {
 
@@ -95,13 +94,8 @@ void remember(const Image& exemplar, const Sources& sources, const Search& searc
           return other.x == place.x && other.y == place.y;
         });
     if (there) continue;
-    std::size_t at = k - 1;
-    for (; at > 0 && found.cost[first + at - 1] > cost; --at) {
-      found.cost[first + at] = found.cost[first + at - 1];
-      found.reference[first + at] = found.reference[first + at - 1];
-    }
-    found.cost[first + at] = cost;
-    found.reference[first + at] = static_cast<std::int32_t>(references.size());
+    insert_neighbour(cost, static_cast<std::int32_t>(references.size()), found.neighbours,
+                     found.cost.data() + first, found.reference.data() + first);
     references.push_back(place);
   }
 }

@@ -17,18 +17,6 @@ constexpr std::int64_t queries_at_once = 96;
 constexpr std::int64_t references_at_once = 512;  // their costs for those queries fit the cache
 constexpr std::int64_t lanes = 16;
 
-// Keeps the least costs in rising order, of equal ones the reference that was there first.
-void insert(float cost, std::int32_t reference, std::int64_t neighbours, float* costs,
-            std::int32_t* nearest) {
-  std::int64_t i = neighbours - 1;
-  for (; i > 0 && costs[i - 1] > cost; --i) {
-    costs[i] = costs[i - 1];
-    nearest[i] = nearest[i - 1];
-  }
-  costs[i] = cost;
-  nearest[i] = reference;
-}
-
 GRAMLOOM_SIMD void keep_least(const float* values, std::int64_t count, std::int64_t first,
                               std::int64_t neighbours, float* costs, std::int32_t* nearest) {
   for (std::int64_t i = 0; i < count; i += lanes) {
@@ -46,7 +34,8 @@ GRAMLOOM_SIMD void keep_least(const float* values, std::int64_t count, std::int6
     if (least >= costs[neighbours - 1]) continue;
     for (std::int64_t k = i; k < end; ++k)
       if (values[k] < costs[neighbours - 1])
-        insert(values[k], static_cast<std::int32_t>(first + k), neighbours, costs, nearest);
+        insert_neighbour(values[k], static_cast<std::int32_t>(first + k), neighbours, costs,
+                         nearest);
   }
 }
 

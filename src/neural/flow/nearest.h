@@ -26,6 +26,19 @@ struct Neighbours {
   std::vector<float> cost;
 };
 
+/// Puts a reference among the `neighbours` of one query, of which `costs` and `nearest` are the
+/// lists, in place of the last: costs rise, of equal ones the reference that was there comes first.
+inline void insert_neighbour(float cost, std::int32_t reference, std::int64_t neighbours,
+                             float* costs, std::int32_t* nearest) {
+  std::int64_t i = neighbours - 1;
+  for (; i > 0 && costs[i - 1] > cost; --i) {
+    costs[i] = costs[i - 1];
+    nearest[i] = nearest[i - 1];
+  }
+  costs[i] = cost;
+  nearest[i] = reference;
+}
+
 /// Reference r costs a query q: offset_r − 2 scale q·r. With offset_r = scale² r² + price_r this is
 /// |q − scale r|² + price_r − q². All are tried. The same bytes for any number of threads.
 Neighbours nearest_references(const Vectors& queries, const Vectors& references,

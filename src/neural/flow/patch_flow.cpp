@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/error.h"
-#include "core/threads.h"
 #include "neural/flow/band_match.h"
 #include "neural/flow/memory.h"
 #include "neural/flow/nearest.h"
@@ -25,6 +23,7 @@ namespace {
 
 constexpr int axes_kept = 48;
 constexpr double window_spread = 0.25;  // of a patch's side
+constexpr double price_spread = 0.25;   // likewise: patches that lie this near are one
 constexpr float courses_time = 0.45f;   // at which the courses are laid out
 constexpr float bands_until = 0.9f;     // the time up to which bands are matched
 
@@ -61,6 +60,22 @@ PeriodicAxis courses_along(const Image& exemplar, Axis axis, bool tiles, int& si
   if (tiles && (whole > most_stretched * side || side > most_stretched * whole)) return {};
   side = static_cast<int>(std::lround(whole));
   return {courses.period, count};
+}
+
+// Of each query's neighbours: exp(−|y − t x|² / 2 (1 − t)²), relative to the nearest; their sum
+// is 1.
+std::vector<float> likelihoods(const Neighbours& found, float t) {
+  std::vector<float> weights = found.cost;
+  const float variance = 2 * std::max(1 - t, 1e-3f) * std::max(1 - t, 1e-3f);
+  const auto k = static_cast<std::size_t>(found.neighbours);
+  for (std::size_t i = 0; i < weights.size(); i += k) {
+    const float least = weights[i];
+    float sum = 0;
+    for (std::size_t j = 0; j < k; ++j)
+      sum += weights[i + j] = std::exp((least - weights[i + j]) / variance);
+    for (std::size_t j = 0; j < k; ++j) weights[i + j] /= sum;
+  }
+  return weights;
 }
 
 }  // namespace
@@ -109,15 +124,12 @@ PatchFlow::Octave& PatchFlow::octave(int index, bool coarsest) {
   o->bands = band_statistics(o->exemplar, Tile::none, o->size);
   o->window = vote_window(side, window_spread);
   const int steps = at_level(params_.flow_steps, index);
-  if (coarsest && x_.count + y_.count > 0) {
-    const float first = courses_time;
-    for (int i = 0; i <= steps; ++i)
-      o->times.push_back(first + (1 - first) * static_cast<float>(i) / static_cast<float>(steps));
-  } else if (coarsest) {  // the first step, towards the mean, is known
+  if (coarsest && x_.count + y_.count == 0) {  // the first step, towards the mean, is known
     for (int i = 1; i < steps + 2; ++i)
       o->times.push_back(static_cast<float>(i) / static_cast<float>(steps + 1));
   } else {
-    const auto first = static_cast<float>(at_level(params_.flow_renoise, index));
+    const float first =
+        coarsest ? courses_time : static_cast<float>(at_level(params_.flow_renoise, index));
     for (int i = 0; i <= steps; ++i)
       o->times.push_back(first + (1 - first) * static_cast<float>(i) / static_cast<float>(steps));
   }
@@ -152,7 +164,7 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
   const float t = o.times[static_cast<std::size_t>(state.step)];
   const float next = o.times[static_cast<std::size_t>(state.step) + 1];
   const int side = o.axes.side;
-  Image picture = to_image(state.picture);
+  const Image picture = to_image(state.picture);
 
   // The patches that vote, and their references.
   Random shift = at_step(Stream::shift);
@@ -179,7 +191,7 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
   float* prices = state.prices.data_ptr<float>();
   if (params_.flow_price > 0) {
     update_prices({o.places, prices}, references, of_picture, of_exemplar, norms, t,
-                  {params_.flow_price, 0.25 * side, state.step == 0 ? 4 : 2},
+                  {params_.flow_price, price_spread * side, state.step == 0 ? 4 : 2},
                   at_step(Stream::queries));
   }
   std::vector<float> offsets = norms;
@@ -197,17 +209,7 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
 
   of_picture = {};  // large
 
-  // Weights exp(−|y − t x|² / 2 (1 − t)²), relative to the nearest.
-  std::vector<float> weights = found.cost;
-  const float variance = 2 * std::max(1 - t, 1e-3f) * std::max(1 - t, 1e-3f);
-  const auto k = static_cast<std::size_t>(found.neighbours);
-  for (std::size_t i = 0; i < weights.size(); i += k) {
-    const float least = weights[i];
-    float sum = 0;
-    for (std::size_t j = 0; j < k; ++j)
-      sum += weights[i + j] = std::exp((least - weights[i + j]) / variance);
-    for (std::size_t j = 0; j < k; ++j) weights[i + j] /= sum;
-  }
+  const std::vector<float> weights = likelihoods(found, t);
   Image goal = vote(o.size, queries, o.exemplar, references, found, weights, side, o.window);
   if (t < bands_until) match_bands(goal, o.bands);
   state.goal = to_planes(goal);
