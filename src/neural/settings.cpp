@@ -13,15 +13,19 @@ namespace gramloom::neural {
 
 namespace {
 constexpr int least_octave_side = 48;  // of the exemplar, of a layout
+
+// Whether what levels from noise depend on, and octaves do not, was left as it is.
+bool has_usual_levels(const NeuralParams& params) {
+  const NeuralParams usual;
+  return params.coarsest_side == usual.coarsest_side && params.level_factor == usual.level_factor;
 }
+
+}  // namespace
 
 Layout layout_by_size(const NeuralParams& params, Size exemplar, const Target& target) {
   if (params.layout != Layout::automatic) return params.layout;
   const auto shorter = [](Size size) { return std::min(size.width, size.height); };
-  const NeuralParams usual;
-  const bool as_usual =
-      params.coarsest_side == usual.coarsest_side && params.level_factor == usual.level_factor;
-  const bool flow = params.levels == 0 && as_usual && params.sliced_weight > 0 &&
+  const bool flow = params.levels == 0 && has_usual_levels(params) && params.sliced_weight > 0 &&
                     params.start.empty() && shorter(exemplar) >= 2 * least_octave_side &&
                     shorter(target.size) >= least_octave_side;
   return flow ? Layout::flow : Layout::noise;
@@ -86,9 +90,7 @@ void check_settings(const NeuralParams& params) {
   not_empty("flow_steps", params.flow_steps);
   not_empty("flow_renoise", params.flow_renoise);
   not_empty("flow_neighbours", params.flow_neighbours);
-  const NeuralParams usual;
-  if (params.layout == Layout::flow &&
-      (params.coarsest_side != usual.coarsest_side || params.level_factor != usual.level_factor))
+  if (params.layout == Layout::flow && !has_usual_levels(params))
     throw ConfigError(
         "coarsest_side and level_factor have no effect with layout = \"flow\", whose levels are "
         "octaves: leave them out, or say how many with levels");
