@@ -23,6 +23,34 @@ void check_channels(std::string_view what, const Image& image, int channels) {
   throw Error("{} has {} channels: {} are needed", what, image.channels, channels);
 }
 
+bool any_above_half(const Image& mask) {
+  return std::ranges::any_of(mask.pixels, [](float v) { return v > 0.5f; });
+}
+
+// A map of the target: of its size, or of 1×1 and then everywhere the same.
+void check_map(std::string_view what, const Image& map, Size size, int channels) {
+  if (map.size() != Size{1, 1}) check_fits(what, map, size);
+  check_channels(what, map, channels);
+  if (!std::ranges::all_of(map.pixels, [](float v) { return std::isfinite(v); }))
+    throw Error("{} holds values that are not finite numbers", what);
+}
+
+void check_not_negative(std::string_view what, const Image& map) {
+  if (std::ranges::any_of(map.pixels, [](float v) { return v < 0; }))
+    throw Error("{} holds values below 0", what);
+}
+
+void check_weights(const Image& weights) {
+  const auto channels = static_cast<std::size_t>(weights.channels);
+  for (std::size_t i = 0; i < weights.pixels.size(); i += channels)
+    if (std::all_of(weights.pixels.begin() + static_cast<std::ptrdiff_t>(i),
+                    weights.pixels.begin() + static_cast<std::ptrdiff_t>(i + channels),
+                    [](float v) { return v == 0; }))
+      throw Error("the weights of all exemplars are 0 at ({}, {})",
+                  i / channels % static_cast<std::size_t>(weights.width),
+                  i / channels / static_cast<std::size_t>(weights.width));
+}
+
 void check_layers(const Exemplar& exemplar) {
   int next = 0;
   for (const Layer& layer : exemplar.layers) {
@@ -47,6 +75,8 @@ void check_exemplar(const Exemplar& exemplar, const Request& request) {
   if (exemplar.layers != first.layers) throw Error("the exemplars have different layers");
   check_fits("an exemplar's mask", exemplar.mask, exemplar.image.size());
   check_channels("an exemplar's mask", exemplar.mask, 1);
+  if (!exemplar.mask.empty() && !any_above_half(exemplar.mask))
+    throw Error("an exemplar's mask is 0 everywhere: nothing of it may be used");
   check_fits("an exemplar's guide", exemplar.guide, exemplar.image.size());
   if (exemplar.guide.empty() != request.target.guide.empty())
     throw Error("exemplars and target must all have a guide, or none");
@@ -61,7 +91,15 @@ void check_target(const Target& target, const std::vector<Exemplar>& exemplars) 
     check_channels("the target's known picture", target.known, exemplars.front().image.channels);
   check_fits("the target's mask", target.mask, target.size);
   check_channels("the target's mask", target.mask, 1);
+  if (!target.mask.empty() && !any_above_half(target.mask))
+    throw Error("the target's mask is 0 everywhere: nothing is to be made");
   check_fits("the target's guide", target.guide, target.size);
+  check_map("the guide's weight", target.guide_weight, target.size, 1);
+  check_not_negative("the guide's weight", target.guide_weight);
+  check_map("the weights", target.weights, target.size, static_cast<int>(exemplars.size()));
+  check_not_negative("the weights", target.weights);
+  check_weights(target.weights);
+  check_map("the turn", target.turn, target.size, 2);
 }
 
 }  // namespace
@@ -85,6 +123,11 @@ std::optional<Lack> find_lack(std::string_view kind, Abilities abilities,
         fmt::format("{} cannot leave out parts of an exemplar: an exemplar's mask is given", kind)};
   if (lacks(Ability::guide) && (request.guide || any(&ExemplarSize::guide)))
     return Lack{Ability::guide, fmt::format("{} cannot follow a guide: a guide is given", kind)};
+  if (lacks(Ability::mix) && request.weights)
+    return Lack{Ability::mix, fmt::format("{} cannot mix exemplars: weights are given", kind)};
+  if (lacks(Ability::turn) && request.turn)
+    return Lack{Ability::turn,
+                fmt::format("{} cannot turn or scale an exemplar: a turn is given", kind)};
   if (lacks(Ability::fill) && request.known)
     return Lack{Ability::fill, fmt::format("{} cannot fill: a target's mask is given", kind)};
   return std::nullopt;

@@ -17,12 +17,14 @@ enum class Ability {
   exemplars,  // of several at once
   mask,       // leaves parts of an exemplar unused
   guide,      // follows a guide: what goes where
+  mix,        // goes from one exemplar to another by weights
+  turn,       // lays the exemplar turned and scaled, from place to place
   fill,       // keeps known pixels of the target and makes the others fit
   source      // copies whole pixels and says from where (Texture::source)
 };
 template <>
 inline constexpr auto enum_names<Ability> = std::to_array<std::string_view>(
-    {"exemplar", "several exemplars", "mask", "guide", "fill", "source"});
+    {"exemplar", "several exemplars", "mask", "guide", "mix", "turn", "fill", "source"});
 
 /// The abilities of a method: each params struct has a `static constexpr Abilities abilities`.
 class Abilities {
@@ -54,8 +56,9 @@ void check_request(std::string_view kind, Abilities abilities, const Request& re
 
 /// What every method asks of its request, before its work and before its estimate. Throws Error
 /// when the method lacks an ability that the request asks for; when a size, a number of channels or
-/// the layers don't fit together; when an exemplar is empty, has more than 64 channels, or holds a
-/// value that is not finite or beyond ±1e15.
+/// the layers don't fit together; when weights are below 0 or all 0; when there is nothing to be
+/// made, or of an exemplar nothing may be used; when an exemplar is empty, has more than 64
+/// channels, or holds a value that is not finite or beyond ±1e15.
 template <class Params>
 void check_request(const Request& request) {
   detail::check_request(Params::kind, Params::abilities, request);

@@ -16,7 +16,13 @@ RequestSize size_of(const Request& request) {
   result.size = target.size;
   result.tile = target.tile;
   result.known = !target.known.empty() || !target.mask.empty();
+  if (!target.mask.empty())
+    result.made = static_cast<double>(
+                      std::ranges::count_if(target.mask.pixels, [](float v) { return v > 0.5f; })) /
+                  static_cast<double>(target.mask.pixels.size());
   result.guide = !target.guide.empty();
+  result.weights = !target.weights.empty() && request.exemplars.size() > 1;
+  result.turn = !target.turn.empty();
   return result;
 }
 

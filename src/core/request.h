@@ -54,6 +54,15 @@ struct Target {
   Image known = {};  // `size`, an exemplar's channels: what the texture has where `mask` is 0
   Image mask = {};   // `size`, one channel: 1 is made anew, 0 stays as known; empty: all is made
   Image guide = {};  // `size`, the channels of the exemplars' guides; empty: none
+  /// How much being alike in the guide counts, beside being alike in the picture: one channel, 0 or
+  /// more, of `size` or of 1×1, which is everywhere the same; empty: 1.
+  Image guide_weight = {};
+  /// How much of each exemplar is mixed in: a channel an exemplar, 0 or more and not all 0, of
+  /// `size` or of 1×1; only their ratios count. Empty: the exemplars are one material together.
+  Image weights = {};
+  /// How the exemplar is laid: two channels, of `size` or of 1×1: turns counter-clockwise, and the
+  /// logarithm to base 2 of how much larger. Empty: upright, as large as it is.
+  Image turn = {};
 };
 
 /// Everything that a method is ever asked. A method ignores nothing silently: what it cannot honour
@@ -80,7 +89,10 @@ struct RequestSize {
   Size size{256, 256};
   Tile tile = Tile::none;
   bool known = false;  // known pixels, or a mask of what is to be made
+  double made = 1;     // which part of the target's pixels is made
   bool guide = false;
+  bool weights = false;  // of several exemplars
+  bool turn = false;
 };
 RequestSize size_of(const Request& request);
 
