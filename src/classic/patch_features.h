@@ -19,11 +19,10 @@ struct FeatureAxes {
   double structure_mean = 0, structure_scale = 0;
 };
 
-/// The same of an image of which only pixels whose mask is 1 count (an empty mask: all): means over
-/// 9×9 pixels, and those of structure, are over them alone. `axes` becomes what they are taken by.
-Image patch_features(const Image& image, const Image& mask, double structure, FeatureAxes& axes);
+/// The same; `axes` becomes what they are taken by.
+Image patch_features(const Image& image, double structure, FeatureAxes& axes);
 /// Those of another image, taken by the same axes.
-Image patch_features(const Image& image, const Image& mask, const FeatureAxes& axes);
+Image patch_features(const Image& image, const FeatureAxes& axes);
 
 /// Half the size (rounded down), each pixel the mean of 2×2, so that pixel (x, y) of the half lies
 /// over pixels (2x, 2y) to (2x + 1, 2y + 1).

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <opencv2/imgproc.hpp>
 #include <queue>
 #include <tuple>
 
+#include "classic/patch_levels.h"
 #include "classic/patch_vote.h"
 #include "core/simd.h"
 #include "core/threads.h"
@@ -22,25 +24,44 @@ typedef float Pixel
 
 std::size_t to_size(int i) { return static_cast<std::size_t>(i); }
 
+/// A known pixel that a place is to have: how much it counts, and where it lies from its origin.
+struct Known {
+  Pixel value;
+  float weight;
+  int x, y;
+  std::ptrdiff_t offset;  // in the places' features
+};
+
 /// What a patch looks for: like pixels where it has them, a like guide everywhere.
 struct Wanted {
-  int lines[field_patch + 1] = {};  // pixels of each line: [lines[y], lines[y + 1])
-  int columns[field_patch * field_patch] = {};
-  Pixel values[field_patch * field_patch] = {};
-  float scale = 0;  // to the sum over a whole patch
+  std::vector<Known> pixels;  // the patch's own first
+  float weight = 0;           // of all
   const PatchGuide* guide = nullptr;
   int x = 0, y = 0;
   float guide_weight = 0;
 };
 
-/// The costs of some origins; of those above `limit` times the least so far only a part.
-GRAMLOOM_SIMD void compare(const Wanted& wanted, const PatchSource& source,
-                           const PatchOrigin* origins, std::size_t count, float limit,
-                           float* costs) {
+constexpr float patch_area = field_patch * field_patch;
+/// What a pixel counts that is known where a place has none: as if it differed by this variance.
+const float unseen = static_cast<float>(tune("UNSEEN", 0.1));
+
+GRAMLOOM_INLINE float squared_difference(const Known& pixel, const float* value) {
+  const Pixel d = pixel.value - *reinterpret_cast<const Pixel*>(value);
+  const Pixel squares = d * d;
+  return pixel.weight * ((squares[0] + squares[1]) + (squares[2] + squares[3]));
+}
+
+/// The costs of places [first, last), as of a whole patch; of those above `limit` times the least
+/// so far only a part.
+GRAMLOOM_SIMD void compare(const Wanted& wanted, const GrowthPlaces& places, std::size_t first,
+                           std::size_t last, float limit, float* costs) {
   float least = std::numeric_limits<float>::infinity();
+  const PatchSource& source = *places.source;
   const std::ptrdiff_t row = std::ptrdiff_t{source.features.width} * field_features;
-  for (std::size_t i = 0; i < count; ++i) {
-    const PatchOrigin o = origins[i];
+  const auto known = static_cast<std::ptrdiff_t>(wanted.pixels.size());
+  const float scale = wanted.weight > 0 ? patch_area / wanted.weight : 0;
+  for (std::size_t i = first; i < last; ++i) {
+    const PatchOrigin o = places.origins[i];
     float cost = 0;
     if (wanted.guide_weight > 0)
       for (std::size_t plane = 0; plane < source.guide.size(); ++plane) {
@@ -49,15 +70,29 @@ GRAMLOOM_SIMD void compare(const Wanted& wanted, const PatchSource& source,
                                                        std::ptrdiff_t{asked.width} * field_features,
                                                        source.guide[plane].at(o.x, o.y), row);
       }
-    const float* line = source.features.at(o.x, o.y);
-    for (int y = 0; y < field_patch && cost < limit * least; ++y, line += row) {
-      Pixel sum{};
-      for (int k = wanted.lines[y]; k < wanted.lines[y + 1]; ++k) {
-        const Pixel d = wanted.values[k] -
-                        *reinterpret_cast<const Pixel*>(line + wanted.columns[k] * field_features);
-        sum += d * d;
+    const float* from = places.features.at(o.x + growth_context, o.y + growth_context);
+    const Known* pixels = wanted.pixels.data();
+    if (places.inside[i] != 0) {
+      for (std::ptrdiff_t k = 0; k < known && cost < limit * least;) {
+        float sum = 0;
+        for (const std::ptrdiff_t end = std::min(known, k + 16); k < end; ++k)
+          sum += squared_difference(pixels[k], from + pixels[k].offset);
+        cost += scale * sum;
       }
-      cost += wanted.scale * ((sum[0] + sum[1]) + (sum[2] + sum[3]));
+    } else {
+      float sum = 0, weight = 0;
+      const unsigned char* valid =
+          places.valid.data() +
+          static_cast<std::ptrdiff_t>(o.y + growth_context) * places.features.width + o.x +
+          growth_context;
+      for (std::ptrdiff_t k = 0; k < known; ++k) {
+        if (valid[static_cast<std::ptrdiff_t>(pixels[k].y) * places.features.width + pixels[k].x] ==
+            0)
+          continue;
+        sum += squared_difference(pixels[k], from + pixels[k].offset);
+        weight += pixels[k].weight;
+      }
+      cost += scale * (sum + unseen * (wanted.weight - weight));
     }
     costs[i] = cost;
     least = cost < least ? cost : least;
@@ -79,16 +114,19 @@ struct Turn {
 
 class Growth {
  public:
-  Growth(PatchHole& hole, const PatchSource& source, const std::vector<PatchOrigin>& origins)
+  Growth(PatchHole& hole, const GrowthPlaces& places)
       : hole_(hole),
-        source_(source),
-        origins_(origins),
+        source_(*places.source),
+        places_(places),
+        origins_(places.origins),
         size_(texture_size(hole.field)),
         left_(hole.made),
         confidence_(left_.size()),
         from_(left_.size(), {-1, -1}),
-        costs_(origins.size()) {
-    for (std::size_t i = 0; i < left_.size(); ++i) confidence_[i] = left_[i] != 0 ? 0.0f : 1.0f;
+        costs_(origins_.size()) {
+    for (std::size_t i = 0; i < left_.size(); ++i) {
+      confidence_[i] = left_[i] != 0 ? 0.0f : 1.0f;
+    }
   }
 
   void run(float tolerance, Random& random) {
@@ -150,19 +188,24 @@ class Growth {
     if (const Turn turn = turn_of(x, y); turn.priority > 0) queue_.push(turn);
   }
 
+  /// Adds a known pixel that lies (i, j) from a patch's first.
+  void add_known(int x, int y, int i, int j, float weight, Wanted& wanted) const {
+    if (!is_known(x + i, y + j)) return;
+    const int u = (x + i + size_.width) % size_.width, v = (y + j + size_.height) % size_.height;
+    wanted.pixels.push_back({*reinterpret_cast<const Pixel*>(hole_.canvas.at(u, v)), weight, i, j,
+                             (std::ptrdiff_t{j} * places_.features.width + i) * field_features});
+    wanted.weight += weight;
+  }
+
   Wanted wanted_of(int x, int y) const {
     Wanted wanted;
-    int count = 0;
-    for (int j = 0; j < field_patch; ++j) {
-      for (int i = 0; i < field_patch; ++i) {
-        if (left_[pixel(x + i, y + j)] != 0) continue;
-        wanted.columns[count] = i;
-        wanted.values[count++] = *reinterpret_cast<const Pixel*>(hole_.canvas.at(x + i, y + j));
-      }
-      wanted.lines[j + 1] = count;
-    }
-    wanted.scale =
-        count > 0 ? static_cast<float>(field_patch * field_patch) / static_cast<float>(count) : 0;
+    for (int j = 0; j < field_patch; ++j)
+      for (int i = 0; i < field_patch; ++i) add_known(x, y, i, j, 1, wanted);
+    constexpr int far = field_patch + growth_context;
+    for (int j = -growth_context; j < far; ++j)
+      for (int i = -growth_context; i < far; ++i)
+        if (i < 0 || j < 0 || i >= field_patch || j >= field_patch)
+          add_known(x, y, i, j, static_cast<float>(tune("CW", 0.25)), wanted);
     wanted.x = x;
     wanted.y = y;
     wanted.guide = &hole_.guide;
@@ -173,14 +216,14 @@ class Growth {
 
   PatchOrigin find(int x, int y, float tolerance, Random& random) {
     const Wanted wanted = wanted_of(x, y);
-    parallel_for(std::ssize(origins_), 8192, [&](std::int64_t first, std::int64_t last) {
-      compare(wanted, source_, origins_.data() + first, static_cast<std::size_t>(last - first),
-              1 + tolerance, costs_.data() + first);
+    parallel_for(std::ssize(origins_), 4096, [&](std::int64_t first, std::int64_t last) {
+      compare(wanted, places_, static_cast<std::size_t>(first), static_cast<std::size_t>(last),
+              1 + tolerance, costs_.data());
     });
     const auto best = std::ranges::min_element(costs_);
     if (tolerance <= 0) return origins_[static_cast<std::size_t>(best - costs_.begin())];
-    constexpr float as_good = 1e-4f * field_patch * field_patch;
-    const float limit = *best * (1 + tolerance) + (wanted.scale > 0 ? 0 : as_good);
+    constexpr float as_good = 1e-4f * patch_area;
+    const float limit = *best * (1 + tolerance) + (wanted.pixels.empty() ? as_good : 0);
     std::uint32_t like = 0;
     for (const float cost : costs_) like += cost <= limit ? 1 : 0;
     std::uint32_t skip = random.below(like);
@@ -247,6 +290,7 @@ class Growth {
 
   PatchHole& hole_;
   const PatchSource& source_;
+  const GrowthPlaces& places_;
   const std::vector<PatchOrigin>& origins_;
   Size size_;
   std::vector<unsigned char> left_;  // pixels yet to be made
@@ -258,24 +302,41 @@ class Growth {
 
 }  // namespace
 
-std::vector<PatchOrigin> some_origins(const PatchSource& source, std::size_t most) {
+GrowthPlaces growth_places(const PatchSource& source, std::size_t most) {
+  GrowthPlaces places{.source = &source};
   const Size size = source.origins();
-  const std::size_t count = source.usable.empty()
-                                ? to_size(size.width) * to_size(size.height)
-                                : static_cast<std::size_t>(std::ranges::count_if(
-                                      source.usable, [](auto v) { return v != 0; }));
-  const std::size_t step = (count + most - 1) / most;
-  std::vector<PatchOrigin> origins;
+  const auto count = source.usable.empty()
+                         ? std::ssize(source.sketches)
+                         : std::ranges::count_if(source.usable, [](auto v) { return v != 0; });
+  const std::size_t step = (static_cast<std::size_t>(count) + most - 1) / most;
   std::size_t i = 0;
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x)
-      if (source.is_usable({x, y}) && i++ % step == 0) origins.push_back({x, y});
-  return origins;
+      if (source.is_usable({x, y}) && i++ % step == 0) places.origins.push_back({x, y});
+
+  // A pixel may be used where a usable patch has it.
+  const Size wide{source.features.width + 2 * growth_context,
+                  source.features.height + 2 * growth_context};
+  cv::Mat1b first(wide.height, wide.width, std::uint8_t{0}), valid, inside;
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x)
+      first(y + growth_context, x + growth_context) = source.is_usable({x, y}) ? 1 : 0;
+  cv::dilate(first, valid, cv::Mat::ones(field_patch, field_patch, CV_8U),
+             cv::Point(field_patch - 1, field_patch - 1));
+  constexpr int side = field_patch + 2 * growth_context;
+  cv::erode(valid, inside, cv::Mat::ones(side, side, CV_8U), cv::Point(0, 0), 1,
+            cv::BORDER_CONSTANT, cv::Scalar(0));
+  for (const PatchOrigin o : places.origins) places.inside.push_back(inside(o.y, o.x));
+  places.valid.assign(valid.datastart, valid.dataend);
+  places.features = Image(wide, field_features);
+  for (int y = 0; y < source.features.height; ++y)
+    std::copy_n(source.features.at(0, y), source.features.width * field_features,
+                places.features.at(growth_context, y + growth_context));
+  return places;
 }
 
-void grow(PatchHole& hole, const PatchSource& source, const std::vector<PatchOrigin>& origins,
-          float tolerance, Random random) {
-  Growth(hole, source, origins).run(tolerance, random);
+void grow(PatchHole& hole, const GrowthPlaces& places, float tolerance, Random random) {
+  Growth(hole, places).run(tolerance, random);
 }
 
 }  // namespace gramloom

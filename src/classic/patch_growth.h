@@ -7,17 +7,29 @@
 
 namespace gramloom {
 
-/// Up to `most` of the usable origins, evenly spread over all.
-std::vector<PatchOrigin> some_origins(const PatchSource& source, std::size_t most);
+/// Pixels about a patch that growth compares besides those of the patch.
+inline constexpr int growth_context = 8;
+
+/// Places of a level that growth may copy from.
+struct GrowthPlaces {
+  const PatchSource* source = nullptr;
+  std::vector<PatchOrigin> origins = {};   // usable ones, evenly spread over all
+  std::vector<unsigned char> inside = {};  // whether all pixels about each may be used, too
+  Image features = {};  // the source's with growth_context more pixels on each side
+  std::vector<unsigned char> valid = {};  // which of those pixels may be used
+};
+
+/// Up to `most` of the usable origins.
+GrowthPlaces growth_places(const PatchSource& source, std::size_t most);
 
 /// Makes the pixels of a hole by growing from its border inward, as Criminisi, Pérez, Toyama 2004
 /// ("Region filling and object removal by exemplar-based image inpainting"): the patch whose known
 /// pixels are most and differ most comes next, and the rest of it is copied from where those are
-/// alike. Departures: their data term, the isophote across the border, is the deviation of the
-/// patch's known pixels; of places within `tolerance` of the best one is drawn. Sets the canvas and
-/// the origins of patches: where the patch's middle was copied from. Without known pixels it grows
-/// from a patch in the middle.
-void grow(PatchHole& hole, const PatchSource& source, const std::vector<PatchOrigin>& origins,
-          float tolerance, Random random);
+/// alike. Departures: pixels about the patch are compared too, though they count less, as on the
+/// coarsest level they show the structures that a patch is too small for; their data term, the
+/// isophote across the border, is the deviation of the patch's known pixels; of places within
+/// `tolerance` of the best one is drawn. Sets the canvas and the origins of patches: where the
+/// patch's middle was copied from. Without known pixels it grows from a patch in the middle.
+void grow(PatchHole& hole, const GrowthPlaces& places, float tolerance, Random random);
 
 }  // namespace gramloom

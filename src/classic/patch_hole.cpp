@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "classic/patch_levels.h"
 #include "classic/patch_vote.h"
 
 namespace gramloom {
@@ -39,7 +40,7 @@ HoleLevel halved(const HoleLevel& fine) {
     for (int x = 0; x < fine.size.width; ++x) {
       const PixelState state = fine.states[to_size(y) * to_size(fine.size.width) + to_size(x)];
       PixelState& over = half.states[to_size(y / 2) * to_size(half.size.width) + to_size(x / 2)];
-      if (state == PixelState::made || over == PixelState::known) over = state;
+      over = std::max(over, state);
     }
   if (!fine.known.empty()) half.known = halved_up(fine.known);
   for (const Image& plane : fine.guide) half.guide.push_back(halved_up(plane));
@@ -83,7 +84,8 @@ Image canvas_of(const Image& image, const Part& part, Size canvas) {
 /// as Wexler et al. 2007 (section 3.2), to a distance of 8 pixels.
 float confidence_at(int distance) {
   float confidence = 1;
-  for (int i = 0; i < std::min(distance, field_patch); ++i) confidence /= 1.3f;
+  for (int i = 0; i < std::min(distance, static_cast<int>(tune("CAP", 8))); ++i)
+    confidence /= static_cast<float>(tune("GAMMA", 1.3));
   return confidence;
 }
 
@@ -128,7 +130,8 @@ void make_pyramid(PatchHole& hole) {
 void enter_level(PatchHole& hole, std::size_t index) {
   const HoleLevel& level = hole.levels[index];
   const Tile tile = hole.window.tile;
-  const Part part = part_of(level, tile);
+  // Growth on the coarsest level looks at all that is known.
+  const Part part = index + 1 < hole.levels.size() ? part_of(level, tile) : Part{0, 0, level.size};
   hole.left = part.left;
   hole.top = part.top;
   const Size patches{part.size.width - (tiles_x(tile) ? 0 : border),
@@ -159,7 +162,7 @@ void enter_level(PatchHole& hole, std::size_t index) {
   }
 }
 
-void refine(PatchHole& hole, std::size_t level, const PatchSource& source, PatchOrigin spare) {
+void refine(PatchHole& hole, std::size_t level, const PatchSource& source) {
   const PatchField coarse = std::move(hole.field);
   const int coarse_left = hole.left, coarse_top = hole.top;
   enter_level(hole, level);
@@ -172,11 +175,9 @@ void refine(PatchHole& hole, std::size_t level, const PatchSource& source, Patch
       const int cx = std::clamp(u / 2 - coarse_left, 0, coarse.size.width - 1);
       const int cy = std::clamp(v / 2 - coarse_top, 0, coarse.size.height - 1);
       const PatchOrigin o = coarse.nearest[coarse.index(cx, cy)];
-      const PatchOrigin origin{
+      fine.nearest[fine.index(x, y)] = {
           std::clamp(2 * o.x + u - 2 * (cx + coarse_left), 0, origins.width - 1),
           std::clamp(2 * o.y + v - 2 * (cy + coarse_top), 0, origins.height - 1)};
-      fine.nearest[fine.index(x, y)] =
-          coarse.looks_for(coarse.index(cx, cy)) && source.is_usable(origin) ? origin : spare;
     }
 }
 

@@ -37,8 +37,8 @@ void make_pyramid(PatchHole& hole);
 /// for; these have no origins yet, and pixels that are made no values.
 void enter_level(PatchHole& hole, std::size_t level);
 
-/// The same from the next coarser level: each patch comes from where the patch over it comes from,
-/// or from `spare` if that cannot be.
-void refine(PatchHole& hole, std::size_t level, const PatchSource& source, PatchOrigin spare);
+/// The same from the next coarser level: each patch comes from where the patch over it comes from.
+/// Those origins can be used where halved_mask() made the coarser level's.
+void refine(PatchHole& hole, std::size_t level, const PatchSource& source);
 
 }  // namespace gramloom

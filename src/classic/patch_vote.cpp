@@ -201,45 +201,6 @@ void vote(const PatchField& field, const Image& exemplar, float floor, Image& ca
   repeat_border(canvas, field);
 }
 
-namespace {
-
-/// The best of what the patches over pixel (x, y) say by cost(origin).
-template <class Cost>
-SmallOrigin best_said(const PatchField& field, int x, int y, Cost&& cost) {
-  float best = std::numeric_limits<float>::infinity();
-  PatchOrigin last_said{-1, -1};
-  SmallOrigin pixel;
-  for_each_patch_row(field, y, [&](int row, int line) {
-    for (int i = 0; i < field_patch; ++i) {
-      int column = x - i;
-      if (tiles_x(field.tile))
-        column = (column % field.size.width + field.size.width) % field.size.width;
-      if (column < 0 || column >= field.size.width) continue;
-      const std::size_t patch = field.index(column, row);
-      if (!field.looks_for(patch)) continue;
-      PatchOrigin origin = field.nearest[patch];
-      origin.x += i;
-      origin.y += line;
-      if (origin == last_said) continue;  // of one piece with the patch before
-      last_said = origin;
-      const float distance = cost(origin);
-      if (distance < best) {
-        best = distance;
-        pixel = origin;
-      }
-    }
-  });
-  return pixel;
-}
-
-float difference(const float* a, const float* b) {
-  float sum = 0;
-  for (int c = 0; c < field_features; ++c) sum += (a[c] - b[c]) * (a[c] - b[c]);
-  return sum;
-}
-
-}  // namespace
-
 std::vector<SmallOrigin> choose_pixels(const PatchField& field, const Image& canvas,
                                        const Image& exemplar) {
   const Size size = texture_size(field);
@@ -247,34 +208,21 @@ std::vector<SmallOrigin> choose_pixels(const PatchField& field, const Image& can
                                   static_cast<std::size_t>(size.height));
   parallel_for(size.height, 8, [&](std::int64_t first, std::int64_t last) {
     for (int y = static_cast<int>(first); y < last; ++y)
-      for (int x = 0; x < size.width; ++x)
-        chosen[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
-               static_cast<std::size_t>(x)] = best_said(field, x, y, [&](PatchOrigin origin) {
-          return difference(exemplar.at(origin.x, origin.y), canvas.at(x, y));
-        });
-  });
-  return chosen;
-}
-
-std::vector<SmallOrigin> choose_pixels(const PatchField& field, const Image& canvas,
-                                       const PatchSource& source, const GuidedPixels& guided,
-                                       const std::vector<unsigned char>& made) {
-  const Size size = texture_size(field);
-  std::vector<SmallOrigin> chosen(static_cast<std::size_t>(size.width) *
-                                  static_cast<std::size_t>(size.height));
-  parallel_for(size.height, 8, [&](std::int64_t first, std::int64_t last) {
-    for (int y = static_cast<int>(first); y < last; ++y)
       for (int x = 0; x < size.width; ++x) {
-        const std::size_t pixel =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
-            static_cast<std::size_t>(x);
-        if (!made.empty() && made[pixel] == 0) continue;
-        chosen[pixel] = best_said(field, x, y, [&](PatchOrigin o) {
-          float cost = difference(source.features.at(o.x, o.y), canvas.at(x, y));
-          for (std::size_t plane = 0; plane < guided.guide.wanted.size(); ++plane)
-            cost += *guided.weight.at(x, y) * difference(source.guide[plane].at(o.x, o.y),
-                                                         guided.guide.wanted[plane].at(x, y));
-          return cost;
+        const float* mean = canvas.at(x, y);
+        float best = std::numeric_limits<float>::infinity();
+        SmallOrigin& pixel =
+            chosen[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
+                   static_cast<std::size_t>(x)];
+        for_each_said(field, x, y, [&](PatchOrigin origin) {
+          const float* value = exemplar.at(origin.x, origin.y);
+          float distance = 0;
+          for (int c = 0; c < field_features; ++c)
+            distance += (value[c] - mean[c]) * (value[c] - mean[c]);
+          if (distance < best) {
+            best = distance;
+            pixel = origin;
+          }
         });
       }
   });

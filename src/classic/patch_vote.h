@@ -25,16 +25,32 @@ void vote(const PatchField& field, const Image& exemplar, float floor, Image& ca
 std::vector<SmallOrigin> choose_pixels(const PatchField& field, const Image& canvas,
                                        const Image& exemplar);
 
-/// Squared weights of the pixels' differences in the guide, of the texture's size; see PatchGuide.
-struct GuidedPixels {
-  const PatchGuide& guide;
-  const Image& weight;
-};
-/// The same for pixels that are `made` (others are at (0, 0)), where what a pixel's guide asks for
-/// counts as its mean does: a label ends at the pixel where it is to end.
-std::vector<SmallOrigin> choose_pixels(const PatchField& field, const Image& canvas,
-                                       const PatchSource& source, const GuidedPixels& guided,
-                                       const std::vector<unsigned char>& made);
+/// Calls f(origin) for what the patches over pixel (x, y) of a texture say about it; the same ones
+/// one after the other are called once.
+template <class F>
+void for_each_said(const PatchField& field, int x, int y, F&& f) {
+  PatchOrigin last_said{-1, -1};
+  for (int line = 0; line < field_patch; ++line) {
+    int row = y - line;
+    if (tiles_y(field.tile))
+      row = (row % field.size.height + field.size.height) % field.size.height;
+    if (row < 0 || row >= field.size.height) continue;
+    for (int i = 0; i < field_patch; ++i) {
+      int column = x - i;
+      if (tiles_x(field.tile))
+        column = (column % field.size.width + field.size.width) % field.size.width;
+      if (column < 0 || column >= field.size.width) continue;
+      const std::size_t patch = field.index(column, row);
+      if (!field.looks_for(patch)) continue;
+      PatchOrigin origin = field.nearest[patch];
+      origin.x += i;
+      origin.y += line;
+      if (origin == last_said) continue;  // of one piece with the patch before
+      last_said = origin;
+      f(origin);
+    }
+  }
+}
 
 /// Energy that vote() and improve() lower in turn: Σ (distance² + floor)^(r / 2).
 double robust_energy(const PatchField& field, float floor);

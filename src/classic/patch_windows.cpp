@@ -101,12 +101,13 @@ Interval around_gap(const std::vector<char>& used) {
   return {(best_first + best) % length, length - best};
 }
 
-/// With a margin, which ends at edges that do not tile.
-Interval grown(Interval hole, int margin, int length, bool tiles) {
-  if (tiles && hole.length + 2 * margin >= length) return {0, length};
-  if (tiles) return {(hole.first - margin + length) % length, hole.length + 2 * margin};
-  const int first = std::max(0, hole.first - margin);
-  return {first, std::min(length, hole.first + hole.length + margin) - first};
+/// With a margin, which ends at edges that do not tile, from a multiple of `grid` on.
+Interval grown(Interval hole, int margin, int grid, int length, bool tiles) {
+  if (tiles && hole.length + 2 * margin + grid >= length) return {0, length};
+  const int first = (hole.first - margin + (tiles ? length : 0)) / grid * grid;
+  const int end = hole.first + hole.length + margin + (tiles ? length : 0);
+  if (tiles) return {first % length, end - first};
+  return {std::max(0, first), std::min(length, end) - std::max(0, first)};
 }
 
 PatchWindow window_of(const Group& group, int label, const Labels& labels, const cv::Mat1b& holes,
@@ -124,8 +125,10 @@ PatchWindow window_of(const Group& group, int label, const Labels& labels, const
   }
   // A patch more on the coarsest level, and what the features of its last pixels look at.
   const int margin = (field_patch << (levels - 1)) + field_patch;
-  x = grown(x, margin, holes.cols, tiles_x(tile));
-  y = grown(y, margin, holes.rows, tiles_y(tile));
+  // Its coarse pixels are those of the whole picture, which an exemplar of the same size has, too.
+  const int grid = 1 << (levels - 1);
+  x = grown(x, margin, grid, holes.cols, tiles_x(tile));
+  y = grown(y, margin, grid, holes.rows, tiles_y(tile));
   return {
       x.first,
       y.first,

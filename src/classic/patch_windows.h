@@ -10,8 +10,8 @@ namespace gramloom {
 /// What a pixel of a window is.
 enum class PixelState : unsigned char {
   known,
-  made,    // in this window
-  foreign  // in another one
+  foreign,  // made in another window
+  made
 };
 
 /// A part of a target with holes near each other, which are filled by themselves.

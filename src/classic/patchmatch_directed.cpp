@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "classic/patch_choice.h"
 #include "classic/patch_features.h"
 #include "classic/patch_growth.h"
 #include "classic/patch_hole.h"
@@ -21,8 +22,8 @@ namespace {
 
 /// A hole is narrow enough for the coarsest level at this width, and an exemplar small enough at
 /// this many origins.
-constexpr int narrow_hole = 8;
-constexpr double few_origins = 2e5;
+const int narrow_hole = static_cast<int>(tune("NARROW", 8));
+constexpr double few_origins = 5e4;
 /// Fewer origins than these of an exemplar on a level are too few to choose from.
 constexpr int fewest_origins = 64;
 /// Where there are no known pixels, growth draws from the places that are this much worse than the
@@ -80,8 +81,8 @@ bool are_enough(const std::vector<int>& finest, const std::vector<int>& counts) 
   return true;
 }
 
-Material make_material(const PatchmatchParams& params, const United& united, int exemplars,
-                       Size texture) {
+Material make_material(const PatchmatchParams& params, double structure, const United& united,
+                       int exemplars, Size texture) {
   const Exemplar& whole = united.exemplar();
   Exemplar mirrored;  // of a small one
   const bool small = std::min(whole.image.width, whole.image.height) < smallest_side;
@@ -93,7 +94,7 @@ Material make_material(const PatchmatchParams& params, const United& united, int
   const Exemplar& exemplar = small ? mirrored : whole;
   Material material;
   PatchSource source{
-      .features = patch_features(exemplar.image, exemplar.mask, params.structure, material.axes),
+      .features = patch_features(exemplar.image, structure, material.axes),
       .guide = united.guide().empty() ? std::vector<Image>() : guide_planes(exemplar.guide)};
   Image mask = exemplar.mask;
   const Size patch{field_patch, field_patch};
@@ -143,13 +144,11 @@ Image cut(const Image& map, const PatchWindow& window) {
 /// The features of a window's known pixels; what others have is not looked at.
 Image known_features(const Target& target, const PatchWindow& window, const FeatureAxes& axes) {
   Image part = cut(target.known, window);
-  Image is_known(window.size, 1);
   for (std::size_t i = 0; i < window.states.size(); ++i)
-    if (window.states[i] == PixelState::known)
-      is_known.pixels[i] = 1;
-    else
-      std::ranges::copy(axes.pca.mean, part.pixels.data() + i * axes.pca.mean.size());
-  return patch_features(part, is_known, axes);
+    if (window.states[i] != PixelState::known)
+      std::ranges::copy(axes.pca.mean, part.pixels.begin() +
+                                           static_cast<std::ptrdiff_t>(i * axes.pca.mean.size()));
+  return patch_features(part, axes);
 }
 
 PatchHole make_hole(PatchWindow window, const Target& target, const Image& guide,
@@ -201,15 +200,60 @@ double count_patches(const PatchHole& hole) {
 /// A hole's first canvas and field on a level: grown on its coarsest, else those of the coarser
 /// one.
 void start(PatchHole& hole, std::size_t level, const PatchSource& source,
-           const std::vector<PatchOrigin>& origins, Random random) {
+           const GrowthPlaces& places, Random random) {
   if (level + 1 < hole.levels.size()) {
-    refine(hole, level, source, origins.front());
+    refine(hole, level, source);
     vote(hole.field, source.features, equal_weights, hole.canvas, hole.made);
     hole.levels.pop_back();
     return;
   }
   enter_level(hole, level);
-  grow(hole, source, origins, hole.levels[level].known.empty() ? growth_tolerance : 0, random);
+  if (tune("DUMP", 0) > 0) {
+  }
+  grow(hole, places, hole.levels[level].known.empty() ? growth_tolerance : 0, random);
+  if (tune("DUMP", 0) > 0) {
+    for (int y = 0; y < hole.canvas.height; ++y) {
+      for (int x = 0; x < hole.canvas.width; ++x)
+        fputc("#-. "[std::clamp(static_cast<int>(2 + hole.canvas.at(x, y)[0] * 1.3f), 0, 3)],
+              stderr);
+      fputc(10, stderr);
+    }
+  }
+  if (tune("GROW", 1) < 1) {
+    const float mix = static_cast<float>(tune("GROW", 1));
+    const Image grown = hole.canvas;
+    const Size t = texture_size(hole.field);
+    for (std::size_t i = 0; i < hole.made.size(); ++i)
+      if (hole.made[i])
+        for (int c = 0; c < 4; ++c)
+          hole.canvas.at(static_cast<int>(i) % t.width, static_cast<int>(i) / t.width)[c] = 0;
+    for (int it = 0; it < 400; ++it)
+      for (int y = 0; y < t.height; ++y)
+        for (int x = 0; x < t.width; ++x)
+          if (hole.made[static_cast<std::size_t>(y * t.width + x)])
+            for (int c = 0; c < 4; ++c) {
+              float su = 0, n = 0;
+              if (x > 0) {
+                su += hole.canvas.at(x - 1, y)[c];
+                ++n;
+              }
+              if (y > 0) {
+                su += hole.canvas.at(x, y - 1)[c];
+                ++n;
+              }
+              if (x + 1 < t.width) {
+                su += hole.canvas.at(x + 1, y)[c];
+                ++n;
+              }
+              if (y + 1 < t.height) {
+                su += hole.canvas.at(x, y + 1)[c];
+                ++n;
+              }
+              hole.canvas.at(x, y)[c] = su / n;
+            }
+    for (std::size_t i = 0; i < hole.canvas.pixels.size(); ++i)
+      hole.canvas.pixels[i] = mix * grown.pixels[i] + (1 - mix) * hole.canvas.pixels[i];
+  }
   if (count_patches(hole) * area(source.origins()) < 2e7)
     search_all(hole.field, hole.canvas, hole.guide, source, nullptr);
 }
@@ -217,8 +261,7 @@ void start(PatchHole& hole, std::size_t level, const PatchSource& source,
 /// Writes where the hole's pixels came from.
 void write_sources(const PatchHole& hole, const PatchSource& source, Size exemplar, Size target,
                    SourceMap& sources) {
-  const auto pixels =
-      choose_pixels(hole.field, hole.canvas, source, {hole.guide, hole.guide_weight}, hole.made);
+  const std::vector<SmallOrigin> pixels = choose_pixels(hole, source);
   const Size part = texture_size(hole.field);
   for (int y = 0; y < part.height; ++y)
     for (int x = 0; x < part.width; ++x) {
@@ -240,6 +283,18 @@ double usable_share(const PatchSource& source) {
   return static_cast<double>(count) / static_cast<double>(source.usable.size());
 }
 
+/// The distance below which three quarters of a hole's patches are, at least the noise floor.
+float typical_distance(const PatchField& field) {
+  std::vector<float> distances;
+  for (std::size_t i = 0; i < field.distance.size(); ++i)
+    if (field.looks_for(i)) distances.push_back(field.distance[i]);
+  const auto at =
+      distances.begin() +
+      static_cast<std::ptrdiff_t>(static_cast<double>(distances.size() - 1) * tune("Q", 0.75));
+  std::nth_element(distances.begin(), at, distances.end());
+  return std::max(noise_floor, static_cast<float>(tune("QM", 1)) * *at);
+}
+
 /// Makes the holes on all levels.
 void optimise(const PatchmatchParams& params, Material& material, std::vector<PatchHole>& holes,
               const Random& random, const Control& control) {
@@ -249,16 +304,20 @@ void optimise(const PatchmatchParams& params, Material& material, std::vector<Pa
   material.levels.resize(levels);
   Progress progress;
   const auto iterations = [&](std::size_t level) {
-    return params.iterations + more_iterations * static_cast<int>(level);
+    return level > 0 && tune("MORE", 12) == 0
+               ? 0
+               : params.iterations + more_iterations * static_cast<int>(level);
   };
   for (std::size_t level = 0; level < levels; ++level) progress.steps += iterations(level);
   for (std::size_t level = levels; level-- > 0;) {
     PatchSource& source = material.levels[level];
     prepare(source);
-    const std::vector<PatchOrigin> origins =
-        some_origins(source, static_cast<std::size_t>(few_origins));
+    GrowthPlaces places;
+    if (std::ranges::any_of(holes,
+                            [&](const PatchHole& h) { return h.levels.size() == level + 1; }))
+      places = growth_places(source, static_cast<std::size_t>(few_origins));
     for_each_hole(holes, level, [&](PatchHole& hole, std::size_t i) {
-      start(hole, level, source, origins, random.stream(1).stream(i));
+      start(hole, level, source, places, random.stream(1).stream(i));
     });
     PatchPenalty penalty(fills ? Size{} : holes.front().field.size,
                          fills ? Size{} : source.origins());
@@ -267,10 +326,14 @@ void optimise(const PatchmatchParams& params, Material& material, std::vector<Pa
       const Random pass = random.stream(2).stream(static_cast<std::uint64_t>(progress.step));
       std::vector<double> energies(holes.size());
       for_each_hole(holes, level, [&](PatchHole& hole, std::size_t h) {
+        if (i < tune("NEAR", 2))
+          search_near(hole.field, hole.canvas, hole.guide, source,
+                      static_cast<int>(tune("RAD", 2)));
         improve(hole.field, hole.canvas, hole.guide, source, fills ? nullptr : &penalty, i,
-                params.tries, pass.stream(h));
+                params.tries + static_cast<int>(tune("TRIES", 0)), pass.stream(h));
         energies[h] = robust_energy(hole.field, noise_floor);
-        vote(hole.field, source.features, noise_floor, hole.canvas, hole.made);
+        vote(hole.field, source.features, fills ? typical_distance(hole.field) : noise_floor,
+             hole.canvas, hole.made);
       });
       if (!fills)
         update(penalty, holes.front().field, params.uniformity, params.largest_copy, share);
@@ -306,8 +369,8 @@ Texture directed_patchmatch(const PatchmatchParams& params, const Request& reque
   if (!fits) wider_guide = padded({.size = asked.size, .guide = united.guide()}, size).guide;
   const Image& guide = fits ? united.guide() : wider_guide;
 
-  Material material =
-      make_material(params, united, static_cast<int>(request.exemplars.size()), size);
+  Material material = make_material(params, target.known.empty() ? params.structure : 0, united,
+                                    static_cast<int>(request.exemplars.size()), size);
   const auto levels = [&](int width) { return levels_for(material, width); };
   std::vector<PatchWindow> windows;
   if (target.known.empty())

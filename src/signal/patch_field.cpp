@@ -238,6 +238,25 @@ GRAMLOOM_SIMD void search_all_of_band(PatchField& field, const Band& band, const
     }
 }
 
+GRAMLOOM_SIMD void search_near_in_rows(PatchField& field, int first, int last, const Search& search,
+                                       int radius) {
+  for (int y = first; y < last; ++y)
+    for (int x = 0; x < field.size.width; ++x) {
+      const std::size_t index = field.index(x, y);
+      if (!field.looks_for(index)) continue;
+      const PatchOrigin around = field.nearest[index];
+      Best best{.origin = around};
+      keep_origin(search, x, y, index, best);
+      for (int dy = -radius; dy <= radius; ++dy)
+        for (int dx = -radius; dx <= radius; ++dx) {
+          const PatchOrigin o{around.x + dx, around.y + dy};
+          if (o != around && search.contains(o)) try_origin(search, x, y, index, o, best);
+        }
+      field.nearest[index] = best.origin;
+      field.distance[index] = best.distance;
+    }
+}
+
 /// For each band the row of the field next to it that a pass in this direction looks at.
 std::vector<SmallOrigin> rows_before(const PatchField& field, int direction) {
   const int height = field.size.height, bands = (height + band_rows - 1) / band_rows;
@@ -329,6 +348,14 @@ void search_all(PatchField& field, const Image& canvas, const Image& exemplar,
 void search_all(PatchField& field, const Image& canvas, const PatchGuide& guide,
                 const PatchSource& source, const PatchPenalty* penalty) {
   search_all(field, search_of(canvas, guide, source, penalty));
+}
+
+void search_near(PatchField& field, const Image& canvas, const PatchGuide& guide,
+                 const PatchSource& source, int radius) {
+  const Search search = search_of(canvas, guide, source, nullptr);
+  parallel_for(field.size.height, band_rows, [&](std::int64_t first, std::int64_t last) {
+    search_near_in_rows(field, static_cast<int>(first), static_cast<int>(last), search, radius);
+  });
 }
 
 }  // namespace gramloom

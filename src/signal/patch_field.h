@@ -56,4 +56,8 @@ void improve(PatchField& field, const Image& canvas, const PatchGuide& guide,
 void search_all(PatchField& field, const Image& canvas, const PatchGuide& guide,
                 const PatchSource& source, const PatchPenalty* penalty);
 
+/// Each patch tries the origins within `radius` of its own.
+void search_near(PatchField& field, const Image& canvas, const PatchGuide& guide,
+                 const PatchSource& source, int radius);
+
 }  // namespace gramloom
