@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "classic/patch_levels.h"
 #include "classic/patch_vote.h"
 #include "core/threads.h"
 
@@ -13,8 +12,7 @@ namespace gramloom {
 
 namespace {
 
-const int sweeps = static_cast<int>(tune("SWEEPS", 4));
-const float cut_weight = static_cast<float>(tune("CUT", 1));
+constexpr int sweeps = 3;
 
 float difference(const float* a, const float* b, int features) {
   float sum = 0;
@@ -36,7 +34,7 @@ class Choice {
                   [&](int x, int y) { choose(x, y, [&](PatchOrigin o) { return fit(x, y, o); }); });
     for (int sweep = 0; sweep < 2 * sweeps; ++sweep)
       for_each_made(sweep % 2, [&](int x, int y) {
-        choose(x, y, [&](PatchOrigin o) { return fit(x, y, o) + cut_weight * cuts(x, y, o); });
+        choose(x, y, [&](PatchOrigin o) { return fit(x, y, o) + cuts(x, y, o); });
       });
     return std::move(chosen_);
   }

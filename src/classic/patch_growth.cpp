@@ -7,7 +7,6 @@
 #include <queue>
 #include <tuple>
 
-#include "classic/patch_levels.h"
 #include "classic/patch_vote.h"
 #include "core/simd.h"
 #include "core/threads.h"
@@ -28,8 +27,7 @@ std::size_t to_size(int i) { return static_cast<std::size_t>(i); }
 struct Known {
   Pixel value;
   float weight;
-  int x, y;
-  std::ptrdiff_t offset;  // in the places' features
+  std::ptrdiff_t offset;  // in pixels of the places' features
 };
 
 /// What a patch looks for: like pixels where it has them, a like guide everywhere.
@@ -41,9 +39,11 @@ struct Wanted {
   float guide_weight = 0;
 };
 
+/// How much pixels about a patch count beside its own.
+constexpr float context_weight = 0.2f;
 constexpr float patch_area = field_patch * field_patch;
 /// What a pixel counts that is known where a place has none: as if it differed by this variance.
-const float unseen = static_cast<float>(tune("UNSEEN", 0.1));
+constexpr float unseen = 0.1f;
 
 GRAMLOOM_INLINE float squared_difference(const Known& pixel, const float* value) {
   const Pixel d = pixel.value - *reinterpret_cast<const Pixel*>(value);
@@ -60,6 +60,7 @@ GRAMLOOM_SIMD void compare(const Wanted& wanted, const GrowthPlaces& places, std
   const std::ptrdiff_t row = std::ptrdiff_t{source.features.width} * field_features;
   const auto known = static_cast<std::ptrdiff_t>(wanted.pixels.size());
   const float scale = wanted.weight > 0 ? patch_area / wanted.weight : 0;
+  const Known* pixels = wanted.pixels.data();
   for (std::size_t i = first; i < last; ++i) {
     const PatchOrigin o = places.origins[i];
     float cost = 0;
@@ -71,28 +72,17 @@ GRAMLOOM_SIMD void compare(const Wanted& wanted, const GrowthPlaces& places, std
                                                        source.guide[plane].at(o.x, o.y), row);
       }
     const float* from = places.features.at(o.x + growth_context, o.y + growth_context);
-    const Known* pixels = wanted.pixels.data();
-    if (places.inside[i] != 0) {
-      for (std::ptrdiff_t k = 0; k < known && cost < limit * least;) {
-        float sum = 0;
-        for (const std::ptrdiff_t end = std::min(known, k + 16); k < end; ++k)
-          sum += squared_difference(pixels[k], from + pixels[k].offset);
-        cost += scale * sum;
-      }
-    } else {
-      float sum = 0, weight = 0;
-      const unsigned char* valid =
-          places.valid.data() +
-          static_cast<std::ptrdiff_t>(o.y + growth_context) * places.features.width + o.x +
-          growth_context;
-      for (std::ptrdiff_t k = 0; k < known; ++k) {
-        if (valid[static_cast<std::ptrdiff_t>(pixels[k].y) * places.features.width + pixels[k].x] ==
-            0)
-          continue;
-        sum += squared_difference(pixels[k], from + pixels[k].offset);
-        weight += pixels[k].weight;
-      }
-      cost += scale * (sum + unseen * (wanted.weight - weight));
+    const unsigned char* valid =
+        places.inside[i] != 0
+            ? nullptr
+            : places.valid.data() + places.index(o.x + growth_context, o.y + growth_context);
+    for (std::ptrdiff_t k = 0; k < known && cost < limit * least;) {
+      float sum = 0;
+      for (const std::ptrdiff_t end = std::min(known, k + 16); k < end; ++k)
+        sum += valid && valid[pixels[k].offset] == 0
+                   ? pixels[k].weight * unseen
+                   : squared_difference(pixels[k], from + pixels[k].offset * field_features);
+      cost += scale * sum;
     }
     costs[i] = cost;
     least = cost < least ? cost : least;
@@ -192,8 +182,8 @@ class Growth {
   void add_known(int x, int y, int i, int j, float weight, Wanted& wanted) const {
     if (!is_known(x + i, y + j)) return;
     const int u = (x + i + size_.width) % size_.width, v = (y + j + size_.height) % size_.height;
-    wanted.pixels.push_back({*reinterpret_cast<const Pixel*>(hole_.canvas.at(u, v)), weight, i, j,
-                             (std::ptrdiff_t{j} * places_.features.width + i) * field_features});
+    wanted.pixels.push_back({*reinterpret_cast<const Pixel*>(hole_.canvas.at(u, v)), weight,
+                             std::ptrdiff_t{j} * places_.features.width + i});
     wanted.weight += weight;
   }
 
@@ -201,11 +191,12 @@ class Growth {
     Wanted wanted;
     for (int j = 0; j < field_patch; ++j)
       for (int i = 0; i < field_patch; ++i) add_known(x, y, i, j, 1, wanted);
+    // Of those about it, every second one tells enough.
     constexpr int far = field_patch + growth_context;
     for (int j = -growth_context; j < far; ++j)
       for (int i = -growth_context; i < far; ++i)
-        if (i < 0 || j < 0 || i >= field_patch || j >= field_patch)
-          add_known(x, y, i, j, static_cast<float>(tune("CW", 0.25)), wanted);
+        if ((i < 0 || j < 0 || i >= field_patch || j >= field_patch) && (i + j) % 2 == 0)
+          add_known(x, y, i, j, context_weight, wanted);
     wanted.x = x;
     wanted.y = y;
     wanted.guide = &hole_.guide;

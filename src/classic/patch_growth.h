@@ -17,6 +17,11 @@ struct GrowthPlaces {
   std::vector<unsigned char> inside = {};  // whether all pixels about each may be used, too
   Image features = {};  // the source's with growth_context more pixels on each side
   std::vector<unsigned char> valid = {};  // which of those pixels may be used
+
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(features.width) +
+           static_cast<std::size_t>(x);
+  }
 };
 
 /// Up to `most` of the usable origins.

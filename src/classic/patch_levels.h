@@ -1,14 +1,8 @@
 #pragma once
 
-#include <cstdlib>
-
 #include "classic/patchmatch.h"
 #include "signal/patch_origin.h"
 namespace gramloom {
-inline double tune(const char* n, double d) {
-  const char* v = std::getenv(n);
-  return v ? std::atof(v) : d;
-}
 
 /// Sides below this are too short for patches to find their like in.
 inline constexpr int smallest_side = 2 * field_patch;

@@ -1,6 +1,7 @@
 #include "classic/patchmatch_directed.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "classic/patch_choice.h"
@@ -22,13 +23,19 @@ namespace {
 
 /// A hole is narrow enough for the coarsest level at this width, and an exemplar small enough at
 /// this many origins.
-const int narrow_hole = static_cast<int>(tune("NARROW", 8));
+constexpr int narrow_hole = 8;
 constexpr double few_origins = 5e4;
 /// Fewer origins than these of an exemplar on a level are too few to choose from.
 constexpr int fewest_origins = 64;
 /// Where there are no known pixels, growth draws from the places that are this much worse than the
 /// best.
 constexpr float growth_tolerance = 0.1f;
+
+/// In a fill what goes on must go on in phase: the first passes of a level also try all origins
+/// this near, which coarser pixels could not tell apart, and all passes more random ones.
+constexpr int near_passes = 2;
+constexpr int near_radius = 2;
+constexpr int more_tries = 3;
 
 double area(Size size) { return static_cast<double>(size.width) * size.height; }
 
@@ -208,52 +215,7 @@ void start(PatchHole& hole, std::size_t level, const PatchSource& source,
     return;
   }
   enter_level(hole, level);
-  if (tune("DUMP", 0) > 0) {
-  }
   grow(hole, places, hole.levels[level].known.empty() ? growth_tolerance : 0, random);
-  if (tune("DUMP", 0) > 0) {
-    for (int y = 0; y < hole.canvas.height; ++y) {
-      for (int x = 0; x < hole.canvas.width; ++x)
-        fputc("#-. "[std::clamp(static_cast<int>(2 + hole.canvas.at(x, y)[0] * 1.3f), 0, 3)],
-              stderr);
-      fputc(10, stderr);
-    }
-  }
-  if (tune("GROW", 1) < 1) {
-    const float mix = static_cast<float>(tune("GROW", 1));
-    const Image grown = hole.canvas;
-    const Size t = texture_size(hole.field);
-    for (std::size_t i = 0; i < hole.made.size(); ++i)
-      if (hole.made[i])
-        for (int c = 0; c < 4; ++c)
-          hole.canvas.at(static_cast<int>(i) % t.width, static_cast<int>(i) / t.width)[c] = 0;
-    for (int it = 0; it < 400; ++it)
-      for (int y = 0; y < t.height; ++y)
-        for (int x = 0; x < t.width; ++x)
-          if (hole.made[static_cast<std::size_t>(y * t.width + x)])
-            for (int c = 0; c < 4; ++c) {
-              float su = 0, n = 0;
-              if (x > 0) {
-                su += hole.canvas.at(x - 1, y)[c];
-                ++n;
-              }
-              if (y > 0) {
-                su += hole.canvas.at(x, y - 1)[c];
-                ++n;
-              }
-              if (x + 1 < t.width) {
-                su += hole.canvas.at(x + 1, y)[c];
-                ++n;
-              }
-              if (y + 1 < t.height) {
-                su += hole.canvas.at(x, y + 1)[c];
-                ++n;
-              }
-              hole.canvas.at(x, y)[c] = su / n;
-            }
-    for (std::size_t i = 0; i < hole.canvas.pixels.size(); ++i)
-      hole.canvas.pixels[i] = mix * grown.pixels[i] + (1 - mix) * hole.canvas.pixels[i];
-  }
   if (count_patches(hole) * area(source.origins()) < 2e7)
     search_all(hole.field, hole.canvas, hole.guide, source, nullptr);
 }
@@ -283,18 +245,6 @@ double usable_share(const PatchSource& source) {
   return static_cast<double>(count) / static_cast<double>(source.usable.size());
 }
 
-/// The distance below which three quarters of a hole's patches are, at least the noise floor.
-float typical_distance(const PatchField& field) {
-  std::vector<float> distances;
-  for (std::size_t i = 0; i < field.distance.size(); ++i)
-    if (field.looks_for(i)) distances.push_back(field.distance[i]);
-  const auto at =
-      distances.begin() +
-      static_cast<std::ptrdiff_t>(static_cast<double>(distances.size() - 1) * tune("Q", 0.75));
-  std::nth_element(distances.begin(), at, distances.end());
-  return std::max(noise_floor, static_cast<float>(tune("QM", 1)) * *at);
-}
-
 /// Makes the holes on all levels.
 void optimise(const PatchmatchParams& params, Material& material, std::vector<PatchHole>& holes,
               const Random& random, const Control& control) {
@@ -304,9 +254,7 @@ void optimise(const PatchmatchParams& params, Material& material, std::vector<Pa
   material.levels.resize(levels);
   Progress progress;
   const auto iterations = [&](std::size_t level) {
-    return level > 0 && tune("MORE", 12) == 0
-               ? 0
-               : params.iterations + more_iterations * static_cast<int>(level);
+    return params.iterations + more_iterations * static_cast<int>(level);
   };
   for (std::size_t level = 0; level < levels; ++level) progress.steps += iterations(level);
   for (std::size_t level = levels; level-- > 0;) {
@@ -319,24 +267,22 @@ void optimise(const PatchmatchParams& params, Material& material, std::vector<Pa
     for_each_hole(holes, level, [&](PatchHole& hole, std::size_t i) {
       start(hole, level, source, places, random.stream(1).stream(i));
     });
-    PatchPenalty penalty(fills ? Size{} : holes.front().field.size,
-                         fills ? Size{} : source.origins());
+    std::optional<PatchPenalty> penalty;
+    if (!fills) penalty.emplace(holes.front().field.size, source.origins());
     const double share = usable_share(source);
     for (int i = 0; i < iterations(level); ++i) {
       const Random pass = random.stream(2).stream(static_cast<std::uint64_t>(progress.step));
       std::vector<double> energies(holes.size());
       for_each_hole(holes, level, [&](PatchHole& hole, std::size_t h) {
-        if (i < tune("NEAR", 2))
-          search_near(hole.field, hole.canvas, hole.guide, source,
-                      static_cast<int>(tune("RAD", 2)));
-        improve(hole.field, hole.canvas, hole.guide, source, fills ? nullptr : &penalty, i,
-                params.tries + static_cast<int>(tune("TRIES", 0)), pass.stream(h));
+        if (fills && i < near_passes)
+          search_near(hole.field, hole.canvas, hole.guide, source, near_radius);
+        improve(hole.field, hole.canvas, hole.guide, source, penalty ? &*penalty : nullptr, i,
+                params.tries + (fills ? more_tries : 0), pass.stream(h));
         energies[h] = robust_energy(hole.field, noise_floor);
-        vote(hole.field, source.features, fills ? typical_distance(hole.field) : noise_floor,
-             hole.canvas, hole.made);
+        vote(hole.field, source.features, noise_floor, hole.canvas, hole.made);
       });
-      if (!fills)
-        update(penalty, holes.front().field, params.uniformity, params.largest_copy, share);
+      if (penalty)
+        update(*penalty, holes.front().field, params.uniformity, params.largest_copy, share);
       progress.loss = 0;
       for (const double energy : energies) progress.loss += energy;
       ++progress.step;
