@@ -1,5 +1,7 @@
 #include "jobs/methods.h"
 
+#include <algorithm>
+
 #include "core/variants.h"
 #include "jobs/unit_normals.h"
 
@@ -14,6 +16,15 @@ void refuse_lacks(const Method& method, const RequestSize& request) {
   const auto others = methods_with(lack->ability);
   if (others.empty()) throw Error("{}; no method can yet", lack->refusal);
   throw Error("{}; methods that can: {}", lack->refusal, fmt::join(others, ", "));
+}
+
+// Bit for bit, whatever a method computes with.
+void keep_known(Image& texture, const Target& target) {
+  if (target.mask.empty()) return;
+  for (int y = 0; y < texture.height; ++y)
+    for (int x = 0; x < texture.width; ++x)
+      if (*target.mask.at(x, y) <= 0.5f)
+        std::copy_n(target.known.at(x, y), texture.channels, texture.at(x, y));
 }
 
 }  // namespace
@@ -41,6 +52,7 @@ Texture run_method(const Method& method, const Request& request, const Control& 
   Texture texture =
       std::visit([&](const auto& params) { return synthesise(params, request, control); }, method);
   keep_normals_unit(texture, request.exemplars);
+  keep_known(texture.image, request.target);
   return texture;
 }
 
