@@ -4,6 +4,7 @@
 
 #include "core/variants.h"
 #include "jobs/unit_normals.h"
+#include "signal/turned.h"
 
 namespace gramloom {
 
@@ -49,16 +50,21 @@ std::vector<std::string_view> methods_with(Ability ability) {
 
 Texture run_method(const Method& method, const Request& request, const Control& control) {
   refuse_lacks(method, size_of(request));
+  std::optional<Turned> turned;
+  if (!request.target.turn.empty()) turned.emplace(request);
+  const Request& asked = turned ? turned->request() : request;
   Texture texture =
-      std::visit([&](const auto& params) { return synthesise(params, request, control); }, method);
-  keep_normals_unit(texture, request.exemplars);
+      std::visit([&](const auto& params) { return synthesise(params, asked, control); }, method);
+  keep_normals_unit(texture, asked.exemplars);
+  if (turned) turned->name_sources(texture.source);
   keep_known(texture.image, request.target);
   return texture;
 }
 
 Cost estimate_method(const Method& method, const RequestSize& request) {
   refuse_lacks(method, request);
-  return std::visit([&](const auto& params) { return estimate(params, request); }, method);
+  const RequestSize asked = request.turn ? size_of_turned(request) : request;
+  return std::visit([&](const auto& params) { return estimate(params, asked); }, method);
 }
 
 }  // namespace gramloom
