@@ -109,6 +109,11 @@ GRAMLOOM_SIMD void weigh(const float* __restrict distances, float floor, float* 
   }
 }
 
+GRAMLOOM_SIMD void multiply(float* __restrict values, const float* __restrict by,
+                            std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) values[i] *= by[i];
+}
+
 /// The weights of the patches over rows [first, last) of the canvas: of the row `border` above the
 /// first one on. Those of rows that the field lacks are not set.
 std::vector<float> weights_over(const PatchField& field, int first, int last, float floor) {
@@ -117,10 +122,12 @@ std::vector<float> weights_over(const PatchField& field, int first, int last, fl
     int row = y;
     if (tiles_y(field.tile))
       row = (row % field.size.height + field.size.height) % field.size.height;
-    if (row >= 0 && row < field.size.height)
-      weigh(field.distance.data() + field.index(0, row), floor,
-            weights.data() + field.index(0, y - first + border),
-            static_cast<std::size_t>(field.size.width));
+    if (row < 0 || row >= field.size.height) continue;
+    float* of_row = weights.data() + field.index(0, y - first + border);
+    const auto count = static_cast<std::size_t>(field.size.width);
+    weigh(field.distance.data() + field.index(0, row), floor, of_row, count);
+    if (!field.confidence.empty())
+      multiply(of_row, field.confidence.data() + field.index(0, row), count);
   }
   return weights;
 }
@@ -157,7 +164,8 @@ Image vote(const PatchField& field, const Image& exemplar, float floor) {
   return canvas;
 }
 
-void vote(const PatchField& field, const Image& exemplar, float floor, Image& canvas) {
+void vote(const PatchField& field, const Image& exemplar, float floor, Image& canvas,
+          const std::vector<unsigned char>& made) {
   const Size size = texture_size(field);
   parallel_for(size.height, rows_at_once, [&](std::int64_t first, std::int64_t last) {
     const std::vector<float> patch_weights =
@@ -182,13 +190,55 @@ void vote(const PatchField& field, const Image& exemplar, float floor, Image& ca
         weights[static_cast<std::size_t>(back)] += weights[static_cast<std::size_t>(x)];
       }
       Pixel* pixels = reinterpret_cast<Pixel*>(canvas.at(0, y));
+      const unsigned char* is_made =
+          made.empty() ? nullptr : made.data() + static_cast<std::ptrdiff_t>(y) * size.width;
       for (int x = 0; x < size.width; ++x)
-        pixels[x] =
-            reinterpret_cast<const Pixel*>(sums.data())[x] / weights[static_cast<std::size_t>(x)];
+        if (!is_made || is_made[x] != 0)
+          pixels[x] =
+              reinterpret_cast<const Pixel*>(sums.data())[x] / weights[static_cast<std::size_t>(x)];
     }
   });
   repeat_border(canvas, field);
 }
+
+namespace {
+
+/// The best of what the patches over pixel (x, y) say by cost(origin).
+template <class Cost>
+SmallOrigin best_said(const PatchField& field, int x, int y, Cost&& cost) {
+  float best = std::numeric_limits<float>::infinity();
+  PatchOrigin last_said{-1, -1};
+  SmallOrigin pixel;
+  for_each_patch_row(field, y, [&](int row, int line) {
+    for (int i = 0; i < field_patch; ++i) {
+      int column = x - i;
+      if (tiles_x(field.tile))
+        column = (column % field.size.width + field.size.width) % field.size.width;
+      if (column < 0 || column >= field.size.width) continue;
+      const std::size_t patch = field.index(column, row);
+      if (!field.looks_for(patch)) continue;
+      PatchOrigin origin = field.nearest[patch];
+      origin.x += i;
+      origin.y += line;
+      if (origin == last_said) continue;  // of one piece with the patch before
+      last_said = origin;
+      const float distance = cost(origin);
+      if (distance < best) {
+        best = distance;
+        pixel = origin;
+      }
+    }
+  });
+  return pixel;
+}
+
+float difference(const float* a, const float* b) {
+  float sum = 0;
+  for (int c = 0; c < field_features; ++c) sum += (a[c] - b[c]) * (a[c] - b[c]);
+  return sum;
+}
+
+}  // namespace
 
 std::vector<SmallOrigin> choose_pixels(const PatchField& field, const Image& canvas,
                                        const Image& exemplar) {
@@ -197,32 +247,34 @@ std::vector<SmallOrigin> choose_pixels(const PatchField& field, const Image& can
                                   static_cast<std::size_t>(size.height));
   parallel_for(size.height, 8, [&](std::int64_t first, std::int64_t last) {
     for (int y = static_cast<int>(first); y < last; ++y)
+      for (int x = 0; x < size.width; ++x)
+        chosen[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
+               static_cast<std::size_t>(x)] = best_said(field, x, y, [&](PatchOrigin origin) {
+          return difference(exemplar.at(origin.x, origin.y), canvas.at(x, y));
+        });
+  });
+  return chosen;
+}
+
+std::vector<SmallOrigin> choose_pixels(const PatchField& field, const Image& canvas,
+                                       const PatchSource& source, const GuidedPixels& guided,
+                                       const std::vector<unsigned char>& made) {
+  const Size size = texture_size(field);
+  std::vector<SmallOrigin> chosen(static_cast<std::size_t>(size.width) *
+                                  static_cast<std::size_t>(size.height));
+  parallel_for(size.height, 8, [&](std::int64_t first, std::int64_t last) {
+    for (int y = static_cast<int>(first); y < last; ++y)
       for (int x = 0; x < size.width; ++x) {
-        const float* mean = canvas.at(x, y);
-        float best = std::numeric_limits<float>::infinity();
-        PatchOrigin last_said{-1, -1};
-        SmallOrigin& pixel =
-            chosen[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
-                   static_cast<std::size_t>(x)];
-        for_each_patch_row(field, y, [&](int row, int line) {
-          for (int i = 0; i < field_patch; ++i) {
-            int column = x - i;
-            if (tiles_x(field.tile)) column = (column % size.width + size.width) % size.width;
-            if (column < 0 || column >= field.size.width) continue;
-            PatchOrigin origin = field.nearest[field.index(column, row)];
-            origin.x += i;
-            origin.y += line;
-            if (origin == last_said) continue;  // of one piece with the patch before
-            last_said = origin;
-            const float* value = exemplar.at(origin.x, origin.y);
-            float distance = 0;
-            for (int c = 0; c < field_features; ++c)
-              distance += (value[c] - mean[c]) * (value[c] - mean[c]);
-            if (distance < best) {
-              best = distance;
-              pixel = origin;
-            }
-          }
+        const std::size_t pixel =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
+            static_cast<std::size_t>(x);
+        if (!made.empty() && made[pixel] == 0) continue;
+        chosen[pixel] = best_said(field, x, y, [&](PatchOrigin o) {
+          float cost = difference(source.features.at(o.x, o.y), canvas.at(x, y));
+          for (std::size_t plane = 0; plane < guided.guide.wanted.size(); ++plane)
+            cost += *guided.weight.at(x, y) * difference(source.guide[plane].at(o.x, o.y),
+                                                         guided.guide.wanted[plane].at(x, y));
+          return cost;
         });
       }
   });

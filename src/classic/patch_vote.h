@@ -12,8 +12,10 @@ namespace gramloom {
 /// Essa, Bobick, Kwatra 2005 ("Texture optimization for example-based synthesis", section 3.1).
 /// r is 0.75 instead of their 0.8: square roots suffice for it, the same on every machine.
 Image vote(const PatchField& field, const Image& exemplar, float floor);
-/// The same, in the place of the canvas before.
-void vote(const PatchField& field, const Image& exemplar, float floor, Image& canvas);
+/// The same, in the place of the canvas before. Of a canvas some of whose pixels are known, only
+/// those are changed that are `made` (of the texture's size, row by row; empty: all).
+void vote(const PatchField& field, const Image& exemplar, float floor, Image& canvas,
+          const std::vector<unsigned char>& made = {});
 
 /// Each pixel's origin in the exemplar, x and y: of the pixels that the patches over it say, the
 /// one nearest to their weighted mean, so that every pixel is one of the exemplar's and sharp (as
@@ -22,6 +24,17 @@ void vote(const PatchField& field, const Image& exemplar, float floor, Image& ca
 /// not looked at.
 std::vector<SmallOrigin> choose_pixels(const PatchField& field, const Image& canvas,
                                        const Image& exemplar);
+
+/// Squared weights of the pixels' differences in the guide, of the texture's size; see PatchGuide.
+struct GuidedPixels {
+  const PatchGuide& guide;
+  const Image& weight;
+};
+/// The same for pixels that are `made` (others are at (0, 0)), where what a pixel's guide asks for
+/// counts as its mean does: a label ends at the pixel where it is to end.
+std::vector<SmallOrigin> choose_pixels(const PatchField& field, const Image& canvas,
+                                       const PatchSource& source, const GuidedPixels& guided,
+                                       const std::vector<unsigned char>& made);
 
 /// Energy that vote() and improve() lower in turn: Σ (distance² + floor)^(r / 2).
 double robust_energy(const PatchField& field, float floor);

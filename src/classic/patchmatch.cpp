@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "classic/patch_features.h"
+#include "classic/patch_levels.h"
 #include "classic/patch_vote.h"
+#include "classic/patchmatch_directed.h"
 #include "classic/quilting.h"
 #include "core/error.h"
 #include "signal/mirror.h"
@@ -16,31 +18,15 @@ namespace gramloom {
 
 namespace {
 
-/// Sides below this are too short for patches to find their like in.
-constexpr int smallest_side = 2 * field_patch;
 /// Lower bound of the exemplar's shorter side on the coarsest level.
 constexpr int coarsest_side = 28;
-constexpr int more_iterations = 12;  // on each coarser level
 constexpr int border = field_patch - 1;
-
-/// Squared distance of patches that are as good as equal: 1e-4 of the exemplar's variance a pixel.
-constexpr float noise_floor = 1e-4f * field_patch * field_patch;
-/// The same for a first vote, whose patches' distances are not known yet: all weights are equal.
-constexpr float equal_weights = 1;
 
 struct Level {
   Image exemplar;  // features
   Size texture;
   int iterations = 0;
 };
-
-int level_count(const PatchmatchParams& params, Size exemplar, Size texture) {
-  int count = 1;
-  while (std::min(exemplar.width, exemplar.height) >> count >= coarsest_side &&
-         std::min(texture.width, texture.height) >> count >= smallest_side)
-    ++count;
-  return params.levels > 0 ? std::min(count, params.levels) : count;
-}
 
 /// Finest first.
 std::vector<Level> make_levels(const PatchmatchParams& params, const Image& exemplar,
@@ -123,9 +109,18 @@ SourceMap sources_of(const std::vector<SmallOrigin>& pixels, Size chosen, Size w
 
 }  // namespace
 
+int level_count(const PatchmatchParams& params, Size exemplar, Size texture) {
+  int count = 1;
+  while (std::min(exemplar.width, exemplar.height) >> count >= coarsest_side &&
+         std::min(texture.width, texture.height) >> count >= smallest_side)
+    ++count;
+  return params.levels > 0 ? std::min(count, params.levels) : count;
+}
+
 Texture synthesise(const PatchmatchParams& params, const Request& request, const Control& control) {
   check_fields(params);
   check_request<PatchmatchParams>(request);
+  if (is_directed(size_of(request))) return directed_patchmatch(params, request, control);
   const Image& exemplar = request.exemplars.front().image;
   const Target& target = request.target;
   check_origins(exemplar.size());
@@ -173,6 +168,7 @@ Texture synthesise(const PatchmatchParams& params, const Request& request, const
 
 Cost estimate(const PatchmatchParams& params, const RequestSize& request) {
   check_request<PatchmatchParams>(request);
+  if (is_directed(request)) return estimate_directed(params, request);
   const Size exemplar = request.exemplars.front().size;
   const int channels = request.exemplars.front().channels;
   const auto area = [](double width, double height) { return width * height; };

@@ -21,12 +21,27 @@ namespace gramloom {
 ///   (patch_features.h), which stands for Kaspar's guidance channel;
 /// - a penalty on the size of a piece copied as a whole, besides the one on uneven use;
 /// - a finer level starts from the origins of the coarser one, not from its enlarged picture.
+///
+/// Several exemplars, masks, weights, guides and fills are met by the same search and vote
+/// (patchmatch_directed.h):
+/// - only patches that lie wholly in usable pixels of one exemplar are copied, on every level;
+/// - a guide's channels are compared as the features are, patch by patch, and once more when each
+///   pixel is chosen, so that labels end where they are painted (Hertzmann et al. 2001, "Image
+///   analogies", whose texture by numbers this is; weights of exemplars are such a guide);
+/// - a fill is that of Wexler, Shechtman, Irani 2007 ("Space-time completion of video"): known
+///   pixels stay, and only patches that touch a hole are searched, those near known pixels with
+///   the stronger votes. Departures: their coarsest level starts from what grows inward from the
+///   holes' borders (Criminisi, Pérez, Toyama 2004, "Region filling and object removal by
+///   exemplar-based image inpainting"); holes far apart are filled apart, each on as many levels as
+///   it is wide; each pixel is one of the exemplar's.
 struct PatchmatchParams {
   static constexpr std::string_view kind = "patchmatch";
   static constexpr std::string_view summary =
       "all overlapping patches optimised together, coarse to fine (Kwatra et al. 2005, Barnes et "
       "al. 2009, Kaspar et al. 2015)";
-  static constexpr Abilities abilities{Ability::exemplar, Ability::source};
+  static constexpr Abilities abilities{Ability::exemplar, Ability::exemplars, Ability::mask,
+                                       Ability::guide,    Ability::mix,       Ability::fill,
+                                       Ability::source};
 
   int levels = 0;
   int iterations = 10;
@@ -72,7 +87,10 @@ struct PatchmatchParams {
 
 /// The texture. An exemplar of fewer than 16 pixels on a side is continued by mirroring.
 /// Progress counts iterations; the loss is Kwatra's robust energy on the current level.
-/// Throws Error for an empty exemplar or target, Interrupted when `control` asks to stop.
+/// In a fill, `uniformity` and `largest_copy` are ignored: a hole continues what is about it, and
+/// may be one piece.
+/// Throws Error for an empty exemplar or target, or where masks leave no patch of 8×8 pixels whole;
+/// Interrupted when `control` asks to stop.
 Texture synthesise(const PatchmatchParams& params, const Request& request, const Control& control);
 
 /// Peak memory and time of that synthesis.

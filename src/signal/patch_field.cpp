@@ -20,27 +20,24 @@ constexpr int band_rows = 16;
 struct Search {
   const Image& canvas;
   const Image& exemplar;
-  const PatchPenalty& penalty;
   SketchScale scale;
-  std::vector<PatchSketch> exemplar_sketches;
-  Size origins;
-  std::ptrdiff_t canvas_row, exemplar_row;
-
-  Search(const Image& canvas_, const Image& exemplar_, const PatchPenalty& penalty_)
-      : canvas(canvas_),
-        exemplar(exemplar_),
-        penalty(penalty_),
-        scale(sketch_scale(exemplar_)),
-        exemplar_sketches(sketch_patches(exemplar_, scale)),
-        origins(patch_origins(exemplar_.size())),
-        canvas_row(std::ptrdiff_t{canvas_.width} * field_features),
-        exemplar_row(std::ptrdiff_t{exemplar_.width} * field_features) {
-    check_origins(exemplar_.size());
-  }
+  const std::vector<PatchSketch>& exemplar_sketches;
+  const PatchPenalty* penalty = nullptr;  // null: none
+  const unsigned char* usable = nullptr;  // origins; null: all
+  const std::vector<Image>* source_guide = nullptr;
+  const PatchGuide* guide = nullptr;  // null: none
+  Size origins = patch_origins(exemplar.size());
+  std::ptrdiff_t canvas_row = std::ptrdiff_t{canvas.width} * field_features;
+  std::ptrdiff_t exemplar_row = std::ptrdiff_t{exemplar.width} * field_features;
 
   bool contains(PatchOrigin o) const {
     return o.x >= 0 && o.y >= 0 && o.x < origins.width && o.y < origins.height;
   }
+  std::size_t index(PatchOrigin o) const {
+    return static_cast<std::size_t>(o.y) * static_cast<std::size_t>(origins.width) +
+           static_cast<std::size_t>(o.x);
+  }
+  bool is_usable(PatchOrigin o) const { return !usable || usable[index(o)] != 0; }
 };
 
 /// The best origin so far of the patch at (x, y).
@@ -51,25 +48,44 @@ struct Best {
 };
 
 GRAMLOOM_INLINE float penalty_of(const Search& search, int x, int y, PatchOrigin origin) {
-  const PatchOrigin shift = search.penalty.shift(x, y, origin);
-  return search.penalty.of_origin[search.penalty.index(origin)] +
-         search.penalty.of_shift.at(shift.x, shift.y);
+  if (!search.penalty) return 0;
+  const PatchOrigin shift = search.penalty->shift(x, y, origin);
+  return search.penalty->of_origin[search.index(origin)] +
+         search.penalty->of_shift.at(shift.x, shift.y);
+}
+
+/// Weighted squared difference in the guide. Not inlined: most searches have none.
+GRAMLOOM_SIMD float guide_distance(const Search& search, int x, int y, PatchOrigin origin,
+                                   std::size_t patch) {
+  float sum = 0;
+  for (std::size_t plane = 0; plane < search.guide->wanted.size(); ++plane)
+    sum +=
+        squared_distance(search.guide->wanted[plane].at(x, y), search.canvas_row,
+                         (*search.source_guide)[plane].at(origin.x, origin.y), search.exemplar_row);
+  return search.guide->weight[patch] * sum;
 }
 
 /// What the origin that the patch has from the pass before costs now.
-GRAMLOOM_INLINE void keep_origin(const Search& search, int x, int y, Best& best) {
+GRAMLOOM_INLINE void keep_origin(const Search& search, int x, int y, std::size_t patch,
+                                 Best& best) {
   best.distance =
       squared_distance(search.canvas.at(x, y), search.canvas_row,
                        search.exemplar.at(best.origin.x, best.origin.y), search.exemplar_row);
+  if (search.guide) best.distance += guide_distance(search, x, y, best.origin, patch);
   best.cost = best.distance + penalty_of(search, x, y, best.origin);
 }
 
-GRAMLOOM_INLINE void try_origin(const Search& search, int x, int y, PatchOrigin origin,
-                                Best& best) {
-  const float distance =
+GRAMLOOM_INLINE void try_origin(const Search& search, int x, int y, std::size_t patch,
+                                PatchOrigin origin, Best& best) {
+  if (!search.is_usable(origin)) return;
+  float distance =
       squared_distance(search.canvas.at(x, y), search.canvas_row,
                        search.exemplar.at(origin.x, origin.y), search.exemplar_row, best.cost);
   if (distance >= best.cost) return;  // as most do, without a look at penalties far away in memory
+  if (search.guide) {
+    distance += guide_distance(search, x, y, origin, patch);
+    if (distance >= best.cost) return;
+  }
   const float penalty = penalty_of(search, x, y, origin);
   if (distance < best.cost - penalty) best = {origin, distance, distance + penalty};
 }
@@ -109,8 +125,9 @@ GRAMLOOM_INLINE void prefetch_four(const Search& search, PatchOrigin around, Fou
 }
 
 /// Tries the first `count` of four random origins, each about the best so far.
-GRAMLOOM_INLINE void try_four(const Search& search, int x, int y, const PatchSketch& patch,
-                              Four radius, FourBits bits, int count, Best& best) {
+GRAMLOOM_INLINE void try_four(const Search& search, int x, int y, std::size_t index,
+                              const PatchSketch& patch, Four radius, FourBits bits, int count,
+                              Best& best) {
   const PatchSketch* sketches = search.exemplar_sketches.data();
   PatchOrigin around;
   FourOrigins drawn;
@@ -127,7 +144,7 @@ GRAMLOOM_INLINE void try_four(const Search& search, int x, int y, const PatchSke
   look();
   for (int t = 0; t < count; ++t) {
     if (difference[t] >= telling) continue;
-    try_origin(search, x, y, {drawn.x[t], drawn.y[t]}, best);
+    try_origin(search, x, y, index, {drawn.x[t], drawn.y[t]}, best);
     if (best.origin != around) look();
   }
 }
@@ -149,7 +166,8 @@ GRAMLOOM_SIMD void improve_band(PatchField& field, const Band& band, const Searc
     y += dy;
     if (tiles_x(field.tile)) x = (x + width) % width;
     if (tiles_y(field.tile)) y = (y + height) % height;
-    if (x < 0 || y < 0 || x >= width || y >= height) return PatchOrigin{-1, -1};
+    if (x < 0 || y < 0 || x >= width || y >= height || !field.looks_for(field.index(x, y)))
+      return PatchOrigin{-1, -1};
     const PatchOrigin origin =
         y >= first && y < last ? field.nearest[field.index(x, y)] : before[x];
     return PatchOrigin{origin.x - dx, origin.y - dy};
@@ -168,17 +186,18 @@ GRAMLOOM_SIMD void improve_band(PatchField& field, const Band& band, const Searc
     for (int k = 0; k < width; ++k) {
       const int x = direction > 0 ? k : width - 1 - k;
       const std::size_t index = field.index(x, y);
+      if (!field.looks_for(index)) continue;
       Best best{.origin = field.nearest[index]};
-      keep_origin(search, x, y, best);
+      keep_origin(search, x, y, index, best);
       for (const PatchOrigin o : {suggestion(x, y, -direction, 0), suggestion(x, y, 0, -direction)})
-        if (search.contains(o) && o != best.origin) try_origin(search, x, y, o, best);
+        if (search.contains(o) && o != best.origin) try_origin(search, x, y, index, o, best);
       const PatchSketch& patch = sketches[index - field.index(0, first)];
       if (k + 1 < width)
         prefetch_four(search, field.nearest[field.index(x + direction, y)],
                       *reinterpret_cast<const Four*>(radius.data()),
                       *reinterpret_cast<const FourBits*>(bits.data() + (k + 1) * tries));
       for (int t = 0; t < tries; t += 4)
-        try_four(search, x, y, patch, *reinterpret_cast<const Four*>(radius.data() + t),
+        try_four(search, x, y, index, patch, *reinterpret_cast<const Four*>(radius.data() + t),
                  *reinterpret_cast<const FourBits*>(bits.data() + k * tries + t),
                  std::min(4, tries - t), best);
       field.nearest[index] = best.origin;
@@ -193,14 +212,15 @@ GRAMLOOM_SIMD void search_all_of_band(PatchField& field, const Band& band, const
   for (int y = first; y < last; ++y)
     for (int x = 0; x < field.size.width; ++x) {
       const std::size_t index = field.index(x, y);
+      if (!field.looks_for(index)) continue;
       const PatchSketch& patch = sketches[index - field.index(0, first)];
       Best best{.origin = field.nearest[index]};
-      keep_origin(search, x, y, best);
+      keep_origin(search, x, y, index, best);
       int telling = telling_difference(best.cost, search.scale);
       const auto consider = [&](int u, int v, int difference) __attribute__((always_inline)) {
         if (difference >= telling) return;
         const float cost = best.cost;
-        try_origin(search, x, y, {u, v}, best);
+        try_origin(search, x, y, index, {u, v}, best);
         if (best.cost < cost) telling = telling_difference(best.cost, search.scale);
       };
       const PatchSketch* sketch = search.exemplar_sketches.data();
@@ -231,6 +251,36 @@ std::vector<SmallOrigin> rows_before(const PatchField& field, int direction) {
   return rows;
 }
 
+void improve(PatchField& field, const Search& search, int pass, int tries, Random random) {
+  const int direction = pass % 2 == 0 ? 1 : -1, height = field.size.height;
+  const std::vector<SmallOrigin> before = rows_before(field, direction);
+  parallel_for(height, band_rows, [&](std::int64_t begin, std::int64_t end) {
+    const auto first = static_cast<int>(begin), last = static_cast<int>(end);
+    const auto sketches = sketch_patches(search.canvas, search.scale, first, last);
+    const Band band{first, last, sketches.data(),
+                    before.data() + field.index(0, first / band_rows)};
+    improve_band(field, band, search, direction, tries,
+                 random.stream(static_cast<std::uint64_t>(first)));
+  });
+}
+
+void search_all(PatchField& field, const Search& search) {
+  parallel_for(field.size.height, 1, [&](std::int64_t first, std::int64_t last) {
+    const auto sketches = sketch_patches(search.canvas, search.scale, static_cast<int>(first),
+                                         static_cast<int>(last));
+    search_all_of_band(
+        field, {static_cast<int>(first), static_cast<int>(last), sketches.data(), nullptr}, search);
+  });
+}
+
+Search search_of(const Image& canvas, const PatchGuide& guide, const PatchSource& source,
+                 const PatchPenalty* penalty) {
+  return {canvas,        source.features,
+          source.scale,  source.sketches,
+          penalty,       source.usable.empty() ? nullptr : source.usable.data(),
+          &source.guide, guide.wanted.empty() ? nullptr : &guide};
+}
+
 }  // namespace
 
 void check_origins(Size exemplar) {
@@ -238,10 +288,6 @@ void check_origins(Size exemplar) {
   if (std::max(exemplar.width, exemplar.height) > most)
     throw Error("an exemplar of {}×{} is too large to compare its patches: at most {} a side",
                 exemplar.width, exemplar.height, most);
-}
-
-Size patch_origins(Size image) {
-  return {image.width - field_patch + 1, image.height - field_patch + 1};
 }
 
 PatchField blank_field(Size size, Tile tile) {
@@ -260,28 +306,29 @@ PatchField random_field(Size size, Tile tile, Size origins, Random random) {
 
 void improve(PatchField& field, const Image& canvas, const Image& exemplar,
              const PatchPenalty& penalty, int pass, int tries, Random random) {
-  const Search search(canvas, exemplar, penalty);
-  const int direction = pass % 2 == 0 ? 1 : -1, height = field.size.height;
-  const std::vector<SmallOrigin> before = rows_before(field, direction);
-  parallel_for(height, band_rows, [&](std::int64_t begin, std::int64_t end) {
-    const auto first = static_cast<int>(begin), last = static_cast<int>(end);
-    const auto sketches = sketch_patches(canvas, search.scale, first, last);
-    const Band band{first, last, sketches.data(),
-                    before.data() + field.index(0, first / band_rows)};
-    improve_band(field, band, search, direction, tries,
-                 random.stream(static_cast<std::uint64_t>(first)));
-  });
+  check_origins(exemplar.size());
+  const SketchScale scale = sketch_scale(exemplar);
+  const std::vector<PatchSketch> sketches = sketch_patches(exemplar, scale);
+  improve(field, {canvas, exemplar, scale, sketches, &penalty}, pass, tries, random);
+}
+
+void improve(PatchField& field, const Image& canvas, const PatchGuide& guide,
+             const PatchSource& source, const PatchPenalty* penalty, int pass, int tries,
+             Random random) {
+  improve(field, search_of(canvas, guide, source, penalty), pass, tries, random);
 }
 
 void search_all(PatchField& field, const Image& canvas, const Image& exemplar,
                 const PatchPenalty& penalty) {
-  const Search search(canvas, exemplar, penalty);
-  parallel_for(field.size.height, 1, [&](std::int64_t first, std::int64_t last) {
-    const auto sketches =
-        sketch_patches(canvas, search.scale, static_cast<int>(first), static_cast<int>(last));
-    search_all_of_band(
-        field, {static_cast<int>(first), static_cast<int>(last), sketches.data(), nullptr}, search);
-  });
+  check_origins(exemplar.size());
+  const SketchScale scale = sketch_scale(exemplar);
+  const std::vector<PatchSketch> sketches = sketch_patches(exemplar, scale);
+  search_all(field, {canvas, exemplar, scale, sketches, &penalty});
+}
+
+void search_all(PatchField& field, const Image& canvas, const PatchGuide& guide,
+                const PatchSource& source, const PatchPenalty* penalty) {
+  search_all(field, search_of(canvas, guide, source, penalty));
 }
 
 }  // namespace gramloom

@@ -5,12 +5,9 @@
 #include "core/image.h"
 #include "core/random.h"
 #include "signal/patch_penalty.h"
+#include "signal/patch_source.h"
 
 namespace gramloom {
-
-/// Patches that are compared as wholes: 8×8 pixels of 4 features (see patch_features.h).
-inline constexpr int field_patch = 8;
-inline constexpr int field_features = 4;
 
 /// For each patch of a canvas the like patch of an exemplar. The canvas has field_patch − 1 more
 /// pixels than the field in each direction: on an axis that tiles they repeat the first ones.
@@ -19,18 +16,18 @@ struct PatchField {
   Tile tile = Tile::none;
   std::vector<SmallOrigin> nearest;  // row by row
   std::vector<float> distance;       // squared, summed over the patch's values
+  /// How much each patch's vote counts; 0: it is not looked for and has none. Empty: all are alike.
+  std::vector<float> confidence = {};
 
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
            static_cast<std::size_t>(x);
   }
+  bool looks_for(std::size_t patch) const { return confidence.empty() || confidence[patch] > 0; }
 };
 
 /// Throws Error for an exemplar of more than 65,536 pixels on a side, which a field cannot name.
 void check_origins(Size exemplar);
-
-/// Number of patches of an image in each direction.
-Size patch_origins(Size image);
 
 /// All patches at origin (0, 0), at distance 0.
 PatchField blank_field(Size size, Tile tile);
@@ -50,5 +47,13 @@ void improve(PatchField& field, const Image& canvas, const Image& exemplar,
 /// The least-cost origin of every patch, by trying all.
 void search_all(PatchField& field, const Image& canvas, const Image& exemplar,
                 const PatchPenalty& penalty);
+
+/// The same two of patches that are asked for more: only usable origins are tried, by the patches
+/// that are looked for; distances are those of pictures and guides together. No penalty: null.
+void improve(PatchField& field, const Image& canvas, const PatchGuide& guide,
+             const PatchSource& source, const PatchPenalty* penalty, int pass, int tries,
+             Random random);
+void search_all(PatchField& field, const Image& canvas, const PatchGuide& guide,
+                const PatchSource& source, const PatchPenalty* penalty);
 
 }  // namespace gramloom

@@ -2,7 +2,16 @@
 
 #include <cstdint>
 
+#include "core/image.h"
+
 namespace gramloom {
+
+/// Patches that are compared as wholes: 8×8 pixels of 4 features (see patch_features.h).
+inline constexpr int field_patch = 8;
+inline constexpr int field_features = 4;
+
+/// Number of patches of an image in each direction.
+Size patch_origins(Size image);
 
 /// The first pixel of a patch in the exemplar.
 struct PatchOrigin {

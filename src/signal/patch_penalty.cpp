@@ -137,15 +137,17 @@ std::vector<float> usage(const PatchField& field, Size origins) {
   return used;
 }
 
-void update(PatchPenalty& penalty, const PatchField& field, double uniformity,
-            double largest_copy) {
+void update(PatchPenalty& penalty, const PatchField& field, double uniformity, double largest_copy,
+            double usable) {
   constexpr float patch_area = field_patch * field_patch;
-  const std::vector<float> used = usage(field, penalty.origins);
+  std::vector<float> used = usage(field, penalty.origins);
+  if (usable < 1)
+    for (float& value : used) value *= static_cast<float>(usable);
   approach_use(penalty.of_origin.data(), used.data(), used.size(),
                static_cast<float>(uniformity) * patch_area);
 
   const float limit =
-      std::max(1.0f, static_cast<float>(largest_copy) * static_cast<float>(used.size()));
+      std::max(1.0f, static_cast<float>(largest_copy * usable) * static_cast<float>(used.size()));
   for_each_square_row(penalty, field, [&](int row, const ShiftCounts& counts) {
     approach_square_row(penalty, row, counts, limit, 0.5f * patch_area);
   });

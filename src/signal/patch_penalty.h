@@ -43,6 +43,8 @@ std::vector<float> usage(const PatchField& field, Size origins);
 /// - of_shift = patch's values / 2 · (count / limit − 1), at most 4 of them, where the `count` of
 ///   patches with one shift exceeds limit = largest_copy · number of origins (ours: a texture made
 ///   of whole copies of the exemplar would use it uniformly).
-void update(PatchPenalty& penalty, const PatchField& field, double uniformity, double largest_copy);
+/// `usable`: part of the origins that may be used, of which usage and limit are.
+void update(PatchPenalty& penalty, const PatchField& field, double uniformity, double largest_copy,
+            double usable = 1);
 
 }  // namespace gramloom

@@ -6,7 +6,7 @@
 
 #include "core/image.h"
 #include "core/simd.h"
-#include "signal/patch_field.h"
+#include "signal/patch_origin.h"
 
 namespace gramloom {
 

@@ -1,0 +1,281 @@
+#include "classic/patch_growth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <tuple>
+
+#include "classic/patch_vote.h"
+#include "core/simd.h"
+#include "core/threads.h"
+#include "signal/patch_distance.h"
+
+namespace gramloom {
+
+namespace {
+
+constexpr int border = field_patch - 1;
+constexpr int middle = field_patch / 2;
+typedef float Pixel
+    __attribute__((vector_size(field_features * sizeof(float)), aligned(4), may_alias));
+
+std::size_t to_size(int i) { return static_cast<std::size_t>(i); }
+
+/// What a patch looks for: like pixels where it has them, a like guide everywhere.
+struct Wanted {
+  int lines[field_patch + 1] = {};  // pixels of each line: [lines[y], lines[y + 1])
+  int columns[field_patch * field_patch] = {};
+  Pixel values[field_patch * field_patch] = {};
+  float scale = 0;  // to the sum over a whole patch
+  const PatchGuide* guide = nullptr;
+  int x = 0, y = 0;
+  float guide_weight = 0;
+};
+
+/// The costs of some origins; of those above `limit` times the least so far only a part.
+GRAMLOOM_SIMD void compare(const Wanted& wanted, const PatchSource& source,
+                           const PatchOrigin* origins, std::size_t count, float limit,
+                           float* costs) {
+  float least = std::numeric_limits<float>::infinity();
+  const std::ptrdiff_t row = std::ptrdiff_t{source.features.width} * field_features;
+  for (std::size_t i = 0; i < count; ++i) {
+    const PatchOrigin o = origins[i];
+    float cost = 0;
+    if (wanted.guide_weight > 0)
+      for (std::size_t plane = 0; plane < source.guide.size(); ++plane) {
+        const Image& asked = wanted.guide->wanted[plane];
+        cost += wanted.guide_weight * squared_distance(asked.at(wanted.x, wanted.y),
+                                                       std::ptrdiff_t{asked.width} * field_features,
+                                                       source.guide[plane].at(o.x, o.y), row);
+      }
+    const float* line = source.features.at(o.x, o.y);
+    for (int y = 0; y < field_patch && cost < limit * least; ++y, line += row) {
+      Pixel sum{};
+      for (int k = wanted.lines[y]; k < wanted.lines[y + 1]; ++k) {
+        const Pixel d = wanted.values[k] -
+                        *reinterpret_cast<const Pixel*>(line + wanted.columns[k] * field_features);
+        sum += d * d;
+      }
+      cost += wanted.scale * ((sum[0] + sum[1]) + (sum[2] + sum[3]));
+    }
+    costs[i] = cost;
+    least = cost < least ? cost : least;
+  }
+}
+
+/// A patch and how urgent it was when it was put into the queue.
+struct Turn {
+  bool in_front = false;  // its middle is unknown and next to a known pixel
+  float priority = 0;
+  int patch = 0;
+
+  friend bool operator<(const Turn& a, const Turn& b) {
+    return std::tuple(a.in_front, a.priority, b.patch) <
+           std::tuple(b.in_front, b.priority, a.patch);
+  }
+  friend bool operator==(const Turn&, const Turn&) = default;
+};
+
+class Growth {
+ public:
+  Growth(PatchHole& hole, const PatchSource& source, const std::vector<PatchOrigin>& origins)
+      : hole_(hole),
+        source_(source),
+        origins_(origins),
+        size_(texture_size(hole.field)),
+        left_(hole.made),
+        confidence_(left_.size()),
+        from_(left_.size(), {-1, -1}),
+        costs_(origins.size()) {
+    for (std::size_t i = 0; i < left_.size(); ++i) confidence_[i] = left_[i] != 0 ? 0.0f : 1.0f;
+  }
+
+  void run(float tolerance, Random& random) {
+    const Size field = hole_.field.size;
+    for (int y = 0; y < field.height; ++y)
+      for (int x = 0; x < field.width; ++x) ask(x, y);
+    if (std::ranges::all_of(left_, [](unsigned char v) { return v != 0; }))
+      fill(field.width / 2, field.height / 2, tolerance, random);
+    while (!queue_.empty()) {
+      const Turn turn = queue_.top();
+      queue_.pop();
+      const int x = turn.patch % field.width, y = turn.patch / field.width;
+      const Turn now = turn_of(x, y);
+      if (now.priority <= 0 || !(now == turn)) continue;  // it was asked again since, or is done
+      fill(x, y, tolerance, random);
+    }
+    set_field(random);
+  }
+
+ private:
+  std::size_t pixel(int x, int y) const {
+    return to_size(y % size_.height) * to_size(size_.width) + to_size(x % size_.width);
+  }
+  bool is_known(int x, int y) const {
+    if (tiles_x(hole_.field.tile)) x = (x + size_.width) % size_.width;
+    if (tiles_y(hole_.field.tile)) y = (y + size_.height) % size_.height;
+    return x >= 0 && y >= 0 && x < size_.width && y < size_.height && left_[pixel(x, y)] == 0;
+  }
+
+  Turn turn_of(int x, int y) const {
+    Turn turn{.patch = y * hole_.field.size.width + x};
+    if (!hole_.field.looks_for(to_size(turn.patch))) return turn;
+    int known = 0;
+    float trust = 0;
+    Pixel sum{}, squares{};
+    for (int j = 0; j < field_patch; ++j)
+      for (int i = 0; i < field_patch; ++i) {
+        const std::size_t at = pixel(x + i, y + j);
+        if (left_[at] != 0) continue;
+        const Pixel value = *reinterpret_cast<const Pixel*>(hole_.canvas.at(x + i, y + j));
+        sum += value;
+        squares += value * value;
+        trust += confidence_[at];
+        ++known;
+      }
+    if (known == 0 || known == field_patch * field_patch) return turn;
+    const auto count = static_cast<float>(known);
+    const Pixel variance = squares / count - sum / count * (sum / count);
+    const float spread =
+        std::sqrt(std::max(0.0f, (variance[0] + variance[1]) + (variance[2] + variance[3])));
+    turn.priority = trust * (spread + 0.1f);
+    const int u = x + middle, v = y + middle;
+    turn.in_front = left_[pixel(u, v)] != 0 && (is_known(u - 1, v) || is_known(u + 1, v) ||
+                                                is_known(u, v - 1) || is_known(u, v + 1));
+    return turn;
+  }
+
+  void ask(int x, int y) {
+    if (const Turn turn = turn_of(x, y); turn.priority > 0) queue_.push(turn);
+  }
+
+  Wanted wanted_of(int x, int y) const {
+    Wanted wanted;
+    int count = 0;
+    for (int j = 0; j < field_patch; ++j) {
+      for (int i = 0; i < field_patch; ++i) {
+        if (left_[pixel(x + i, y + j)] != 0) continue;
+        wanted.columns[count] = i;
+        wanted.values[count++] = *reinterpret_cast<const Pixel*>(hole_.canvas.at(x + i, y + j));
+      }
+      wanted.lines[j + 1] = count;
+    }
+    wanted.scale =
+        count > 0 ? static_cast<float>(field_patch * field_patch) / static_cast<float>(count) : 0;
+    wanted.x = x;
+    wanted.y = y;
+    wanted.guide = &hole_.guide;
+    if (!hole_.guide.weight.empty())
+      wanted.guide_weight = hole_.guide.weight[hole_.field.index(x, y)];
+    return wanted;
+  }
+
+  PatchOrigin find(int x, int y, float tolerance, Random& random) {
+    const Wanted wanted = wanted_of(x, y);
+    parallel_for(std::ssize(origins_), 8192, [&](std::int64_t first, std::int64_t last) {
+      compare(wanted, source_, origins_.data() + first, static_cast<std::size_t>(last - first),
+              1 + tolerance, costs_.data() + first);
+    });
+    const auto best = std::ranges::min_element(costs_);
+    if (tolerance <= 0) return origins_[static_cast<std::size_t>(best - costs_.begin())];
+    constexpr float as_good = 1e-4f * field_patch * field_patch;
+    const float limit = *best * (1 + tolerance) + (wanted.scale > 0 ? 0 : as_good);
+    std::uint32_t like = 0;
+    for (const float cost : costs_) like += cost <= limit ? 1 : 0;
+    std::uint32_t skip = random.below(like);
+    for (std::size_t i = 0;; ++i)
+      if (costs_[i] <= limit && skip-- == 0) return origins_[i];
+  }
+
+  void fill(int x, int y, float tolerance, Random& random) {
+    const PatchOrigin origin = find(x, y, tolerance, random);
+    float trust = 0;
+    for (int j = 0; j < field_patch; ++j)
+      for (int i = 0; i < field_patch; ++i) trust += confidence_[pixel(x + i, y + j)];
+    trust /= field_patch * field_patch;
+    for (int j = 0; j < field_patch; ++j)
+      for (int i = 0; i < field_patch; ++i) {
+        const std::size_t at = pixel(x + i, y + j);
+        if (left_[at] == 0) continue;
+        left_[at] = 0;
+        confidence_[at] = trust;
+        from_[at] = {origin.x + i, origin.y + j};
+        set_canvas((x + i) % size_.width, (y + j) % size_.height,
+                   source_.features.at(origin.x + i, origin.y + j));
+      }
+    const Size field = hole_.field.size;
+    const bool wraps_x = tiles_x(hole_.field.tile), wraps_y = tiles_y(hole_.field.tile);
+    for (int v = y - border - 1; v <= y + border + 1; ++v)
+      for (int u = x - border - 1; u <= x + border + 1; ++u) {
+        const int column = wraps_x ? (u + 2 * field.width * field_patch) % field.width : u;
+        const int row = wraps_y ? (v + 2 * field.height * field_patch) % field.height : v;
+        if (column >= 0 && row >= 0 && column < field.width && row < field.height) ask(column, row);
+      }
+  }
+
+  /// Sets a pixel and its repetitions behind the last ones.
+  void set_canvas(int x, int y, const float* value) {
+    for (int v = y; v < hole_.canvas.height; v += size_.height)
+      for (int u = x; u < hole_.canvas.width; u += size_.width)
+        std::copy_n(value, field_features, hole_.canvas.at(u, v));
+  }
+
+  /// The usable origin by which a patch has a pixel from where that was copied.
+  bool origin_by(int x, int y, int i, int j, PatchOrigin& origin) const {
+    const PatchOrigin from = from_[pixel(x + i, y + j)];
+    const Size all = source_.origins();
+    origin = {from.x - i, from.y - j};
+    return from.x >= 0 && origin.x >= 0 && origin.y >= 0 && origin.x < all.width &&
+           origin.y < all.height && source_.is_usable(origin);
+  }
+
+  void set_field(Random& random) {
+    PatchField& field = hole_.field;
+    for (int y = 0; y < field.size.height; ++y)
+      for (int x = 0; x < field.size.width; ++x) {
+        const std::size_t patch = field.index(x, y);
+        if (!field.looks_for(patch)) continue;
+        PatchOrigin origin;
+        bool found = origin_by(x, y, middle, middle, origin);
+        for (int k = 0; k < field_patch * field_patch && !found; ++k)
+          found = origin_by(x, y, k % field_patch, k / field_patch, origin);
+        if (!found) origin = origins_[random.below(static_cast<std::uint32_t>(origins_.size()))];
+        field.nearest[patch] = origin;
+      }
+  }
+
+  PatchHole& hole_;
+  const PatchSource& source_;
+  const std::vector<PatchOrigin>& origins_;
+  Size size_;
+  std::vector<unsigned char> left_;  // pixels yet to be made
+  std::vector<float> confidence_;
+  std::vector<PatchOrigin> from_;
+  std::vector<float> costs_;
+  std::priority_queue<Turn> queue_;
+};
+
+}  // namespace
+
+std::vector<PatchOrigin> some_origins(const PatchSource& source, std::size_t most) {
+  const Size size = source.origins();
+  const std::size_t count = source.usable.empty()
+                                ? to_size(size.width) * to_size(size.height)
+                                : static_cast<std::size_t>(std::ranges::count_if(
+                                      source.usable, [](auto v) { return v != 0; }));
+  const std::size_t step = (count + most - 1) / most;
+  std::vector<PatchOrigin> origins;
+  std::size_t i = 0;
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x)
+      if (source.is_usable({x, y}) && i++ % step == 0) origins.push_back({x, y});
+  return origins;
+}
+
+void grow(PatchHole& hole, const PatchSource& source, const std::vector<PatchOrigin>& origins,
+          float tolerance, Random random) {
+  Growth(hole, source, origins).run(tolerance, random);
+}
+
+}  // namespace gramloom

@@ -1,0 +1,351 @@
+#include "classic/patchmatch_directed.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "classic/patch_features.h"
+#include "classic/patch_growth.h"
+#include "classic/patch_hole.h"
+#include "classic/patch_levels.h"
+#include "classic/patch_vote.h"
+#include "classic/patch_windows.h"
+#include "core/error.h"
+#include "core/threads.h"
+#include "signal/mirror.h"
+#include "signal/patch_field.h"
+#include "signal/united.h"
+
+namespace gramloom {
+
+namespace {
+
+/// A hole is narrow enough for the coarsest level at this width, and an exemplar small enough at
+/// this many origins.
+constexpr int narrow_hole = 8;
+constexpr double few_origins = 2e5;
+/// Fewer origins than these of an exemplar on a level are too few to choose from.
+constexpr int fewest_origins = 64;
+/// Where there are no known pixels, growth draws from the places that are this much worse than the
+/// best.
+constexpr float growth_tolerance = 0.1f;
+
+double area(Size size) { return static_cast<double>(size.width) * size.height; }
+
+/// A target that a patch fits in: what is added is made, and cut off in the end.
+Target padded(const Target& target, Size size) {
+  const auto wider = [&](const Image& map) {
+    if (map.empty() || map.size() == Size{1, 1}) return map;
+    Image result(size, map.channels);
+    for (int y = 0; y < size.height; ++y)
+      for (int x = 0; x < size.width; ++x)
+        std::copy_n(map.at(std::min(x, map.width - 1), std::min(y, map.height - 1)), map.channels,
+                    result.at(x, y));
+    return result;
+  };
+  Target result{.size = size,
+                .tile = target.tile,
+                .known = wider(target.known),
+                .mask = wider(target.mask),
+                .guide = wider(target.guide),
+                .guide_weight = wider(target.guide_weight)};
+  for (int y = 0; y < size.height && !result.mask.empty(); ++y)
+    for (int x = 0; x < size.width; ++x)
+      if (x >= target.size.width || y >= target.size.height) *result.mask.at(x, y) = 1;
+  return result;
+}
+
+/// The exemplars as one picture to copy from, on all levels, finest first.
+struct Material {
+  FeatureAxes axes;
+  std::vector<PatchSource> levels;
+};
+
+/// Usable origins of each exemplar on a level.
+std::vector<int> count_usable(const PatchSource& source, const United& united, int exemplars,
+                              int level) {
+  std::vector<int> counts(static_cast<std::size_t>(exemplars));
+  const Size size = source.origins();
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x)
+      if (source.is_usable({x, y})) ++counts[united.source(x << level, y).exemplar];
+  return counts;
+}
+
+/// Whether each exemplar that matters on the finest level has origins enough on another.
+bool are_enough(const std::vector<int>& finest, const std::vector<int>& counts) {
+  double all = 0;
+  for (const int count : finest) all += count;
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    if (finest[i] > 0.02 * all && counts[i] < std::min(fewest_origins, finest[i])) return false;
+  return true;
+}
+
+Material make_material(const PatchmatchParams& params, const United& united, int exemplars,
+                       Size texture) {
+  const Exemplar& whole = united.exemplar();
+  Exemplar mirrored;  // of a small one
+  const bool small = std::min(whole.image.width, whole.image.height) < smallest_side;
+  if (small) {
+    mirrored.image = at_least(whole.image, smallest_side);
+    if (!whole.mask.empty()) mirrored.mask = at_least(whole.mask, smallest_side);
+    if (!whole.guide.empty()) mirrored.guide = at_least(whole.guide, smallest_side);
+  }
+  const Exemplar& exemplar = small ? mirrored : whole;
+  Material material;
+  PatchSource source{
+      .features = patch_features(exemplar.image, exemplar.mask, params.structure, material.axes),
+      .guide = united.guide().empty() ? std::vector<Image>() : guide_planes(exemplar.guide)};
+  Image mask = exemplar.mask;
+  const Size patch{field_patch, field_patch};
+  if (!mask.empty()) source.usable = usable_origins(mask, source.features.size(), patch);
+  const std::vector<int> finest = count_usable(source, united, exemplars, 0);
+  if (std::ranges::all_of(finest, [](int n) { return n == 0; }))
+    throw Error("patchmatch copies patches of {}×{} pixels: the exemplars' masks leave none whole",
+                field_patch, field_patch);
+  const int count = level_count(params, exemplar.image.size(), texture);
+  material.levels.push_back(std::move(source));
+  while (static_cast<int>(material.levels.size()) < count) {
+    const PatchSource& finer = material.levels.back();
+    PatchSource next{.features = halved(finer.features)};
+    for (const Image& plane : finer.guide) next.guide.push_back(halved(plane));
+    if (!mask.empty()) {
+      mask = halved_mask(mask);
+      next.usable = usable_origins(mask, next.features.size(), patch);
+      const int level = static_cast<int>(material.levels.size());
+      if (!are_enough(finest, count_usable(next, united, exemplars, level))) break;
+    }
+    material.levels.push_back(std::move(next));
+  }
+  return material;
+}
+
+/// How many levels a hole of some width needs: so many that it is narrow, and that there are few
+/// places to look for the first of it.
+int levels_for(const Material& material, int width) {
+  int levels = 1;
+  for (; levels < std::ssize(material.levels); ++levels) {
+    const Size origins = material.levels[static_cast<std::size_t>(levels - 1)].origins();
+    if (width >> (levels - 1) <= narrow_hole && area(origins) <= few_origins) break;
+  }
+  return levels;
+}
+
+/// A window's part of a map of the target's size.
+Image cut(const Image& map, const PatchWindow& window) {
+  Image part(window.size, map.channels);
+  for (int y = 0; y < part.height; ++y)
+    for (int x = 0; x < part.width; ++x)
+      std::copy_n(map.at((window.left + x) % map.width, (window.top + y) % map.height),
+                  map.channels, part.at(x, y));
+  return part;
+}
+
+/// The features of a window's known pixels; what others have is not looked at.
+Image known_features(const Target& target, const PatchWindow& window, const FeatureAxes& axes) {
+  Image part = cut(target.known, window);
+  Image is_known(window.size, 1);
+  for (std::size_t i = 0; i < window.states.size(); ++i)
+    if (window.states[i] == PixelState::known)
+      is_known.pixels[i] = 1;
+    else
+      std::ranges::copy(axes.pca.mean, part.pixels.data() + i * axes.pca.mean.size());
+  return patch_features(part, is_known, axes);
+}
+
+PatchHole make_hole(PatchWindow window, const Target& target, const Image& guide,
+                    const FeatureAxes& axes) {
+  PatchHole hole;
+  HoleLevel& finest = hole.levels.emplace_back();
+  finest.size = window.size;
+  if (!target.known.empty()) finest.known = known_features(target, window, axes);
+  if (!guide.empty()) {
+    finest.guide = guide_planes(cut(guide, window));
+    finest.guide_weight = Image(window.size, 1, 1.0f);
+    for (int y = 0; y < window.size.height && !target.guide_weight.empty(); ++y)
+      for (int x = 0; x < window.size.width; ++x) {
+        const float weight = *map_at(target.guide_weight, (window.left + x) % target.size.width,
+                                     (window.top + y) % target.size.height);
+        *finest.guide_weight.at(x, y) = weight * weight;
+      }
+  }
+  finest.states = std::move(window.states);
+  hole.window = std::move(window);
+  make_pyramid(hole);
+  return hole;
+}
+
+/// Calls f(hole, its number): large ones one after the other, small ones at the same time.
+template <class F>
+void for_each_hole(std::vector<PatchHole>& holes, std::size_t level, F&& f) {
+  std::vector<std::size_t> small;
+  for (std::size_t i = 0; i < holes.size(); ++i) {
+    if (holes[i].levels.size() <= level) continue;
+    if (area(holes[i].levels[level].size) > 1 << 18 || holes.size() == 1)
+      f(holes[i], i);
+    else
+      small.push_back(i);
+  }
+  parallel_for(std::ssize(small), 1, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+      f(holes[small[static_cast<std::size_t>(i)]], small[static_cast<std::size_t>(i)]);
+  });
+}
+
+/// The patches that are looked for.
+double count_patches(const PatchHole& hole) {
+  if (hole.field.confidence.empty()) return area(hole.field.size);
+  return static_cast<double>(
+      std::ranges::count_if(hole.field.confidence, [](float c) { return c > 0; }));
+}
+
+/// A hole's first canvas and field on a level: grown on its coarsest, else those of the coarser
+/// one.
+void start(PatchHole& hole, std::size_t level, const PatchSource& source,
+           const std::vector<PatchOrigin>& origins, Random random) {
+  if (level + 1 < hole.levels.size()) {
+    refine(hole, level, source, origins.front());
+    vote(hole.field, source.features, equal_weights, hole.canvas, hole.made);
+    hole.levels.pop_back();
+    return;
+  }
+  enter_level(hole, level);
+  grow(hole, source, origins, hole.levels[level].known.empty() ? growth_tolerance : 0, random);
+  if (count_patches(hole) * area(source.origins()) < 2e7)
+    search_all(hole.field, hole.canvas, hole.guide, source, nullptr);
+}
+
+/// Writes where the hole's pixels came from.
+void write_sources(const PatchHole& hole, const PatchSource& source, Size exemplar, Size target,
+                   SourceMap& sources) {
+  const auto pixels =
+      choose_pixels(hole.field, hole.canvas, source, {hole.guide, hole.guide_weight}, hole.made);
+  const Size part = texture_size(hole.field);
+  for (int y = 0; y < part.height; ++y)
+    for (int x = 0; x < part.width; ++x) {
+      const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(part.width) +
+                                static_cast<std::size_t>(x);
+      if (hole.made[pixel] == 0) continue;
+      const int u = (hole.window.left + hole.left + x) % target.width;
+      const int v = (hole.window.top + hole.top + y) % target.height;
+      if (u >= sources.size.width || v >= sources.size.height) continue;
+      const PatchOrigin from = pixels[pixel];
+      *sources.at(u, v) = {mirrored(from.x, exemplar.width), mirrored(from.y, exemplar.height)};
+    }
+}
+
+/// The part of the origins that may be used.
+double usable_share(const PatchSource& source) {
+  if (source.usable.empty()) return 1;
+  const auto count = std::ranges::count_if(source.usable, [](auto v) { return v != 0; });
+  return static_cast<double>(count) / static_cast<double>(source.usable.size());
+}
+
+/// Makes the holes on all levels.
+void optimise(const PatchmatchParams& params, Material& material, std::vector<PatchHole>& holes,
+              const Random& random, const Control& control) {
+  const bool fills = !holes.front().levels.front().known.empty();
+  std::size_t levels = 0;
+  for (const PatchHole& hole : holes) levels = std::max(levels, hole.levels.size());
+  material.levels.resize(levels);
+  Progress progress;
+  const auto iterations = [&](std::size_t level) {
+    return params.iterations + more_iterations * static_cast<int>(level);
+  };
+  for (std::size_t level = 0; level < levels; ++level) progress.steps += iterations(level);
+  for (std::size_t level = levels; level-- > 0;) {
+    PatchSource& source = material.levels[level];
+    prepare(source);
+    const std::vector<PatchOrigin> origins =
+        some_origins(source, static_cast<std::size_t>(few_origins));
+    for_each_hole(holes, level, [&](PatchHole& hole, std::size_t i) {
+      start(hole, level, source, origins, random.stream(1).stream(i));
+    });
+    PatchPenalty penalty(fills ? Size{} : holes.front().field.size,
+                         fills ? Size{} : source.origins());
+    const double share = usable_share(source);
+    for (int i = 0; i < iterations(level); ++i) {
+      const Random pass = random.stream(2).stream(static_cast<std::uint64_t>(progress.step));
+      std::vector<double> energies(holes.size());
+      for_each_hole(holes, level, [&](PatchHole& hole, std::size_t h) {
+        improve(hole.field, hole.canvas, hole.guide, source, fills ? nullptr : &penalty, i,
+                params.tries, pass.stream(h));
+        energies[h] = robust_energy(hole.field, noise_floor);
+        vote(hole.field, source.features, noise_floor, hole.canvas, hole.made);
+      });
+      if (!fills)
+        update(penalty, holes.front().field, params.uniformity, params.largest_copy, share);
+      progress.loss = 0;
+      for (const double energy : energies) progress.loss += energy;
+      ++progress.step;
+      if (!control.report(progress)) throw Interrupted();
+    }
+    if (level > 0) material.levels.pop_back();
+  }
+}
+
+}  // namespace
+
+bool is_directed(const RequestSize& request) {
+  return request.exemplars.size() > 1 || request.exemplars.front().mask || request.guide ||
+         request.known;
+}
+
+Texture directed_patchmatch(const PatchmatchParams& params, const Request& request,
+                            const Control& control) {
+  const United united(request);
+  const Size exemplar = united.exemplar().image.size();
+  check_origins(exemplar);
+  const Target& asked = request.target;
+  const Size size{
+      tiles_x(asked.tile) ? asked.size.width : std::max(asked.size.width, smallest_side),
+      tiles_y(asked.tile) ? asked.size.height : std::max(asked.size.height, smallest_side)};
+  const bool fits = size == asked.size;
+  const Target wider = fits ? Target{} : padded(asked, size);
+  const Target& target = fits ? asked : wider;
+  Image wider_guide;
+  if (!fits) wider_guide = padded({.size = asked.size, .guide = united.guide()}, size).guide;
+  const Image& guide = fits ? united.guide() : wider_guide;
+
+  Material material =
+      make_material(params, united, static_cast<int>(request.exemplars.size()), size);
+  const auto levels = [&](int width) { return levels_for(material, width); };
+  std::vector<PatchWindow> windows;
+  if (target.known.empty())
+    windows = {whole_window(size, target.tile, static_cast<int>(material.levels.size()))};
+  else
+    windows = windows_of(target.mask, target.tile, levels);
+  std::vector<PatchHole> holes(windows.size());
+  parallel_for(std::ssize(windows), 1, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+      holes[static_cast<std::size_t>(i)] =
+          make_hole(std::move(windows[static_cast<std::size_t>(i)]), target, guide, material.axes);
+  });
+  optimise(params, material, holes, request.random, control);
+
+  SourceMap sources(asked.size);
+  for (PatchHole& hole : holes) {
+    write_sources(hole, material.levels.front(), exemplar, size, sources);
+    hole = {};
+  }
+  material = {};
+  united.name_sources(sources);
+  Texture texture = texture_of(std::move(sources), request.exemplars);
+  for (int y = 0; y < asked.mask.height; ++y)
+    for (int x = 0; x < asked.mask.width; ++x)
+      if (*asked.mask.at(x, y) <= 0.5f)
+        std::copy_n(asked.known.at(x, y), asked.known.channels, texture.image.at(x, y));
+  return texture;
+}
+
+Cost estimate_directed(const PatchmatchParams& params, const RequestSize& request) {
+  double samples = 0;
+  for (const ExemplarSize& exemplar : request.exemplars) samples += area(exemplar.size);
+  const int channels = request.exemplars.front().channels;
+  const double pixels = area(request.size) * request.made;
+  const double iterations = params.iterations * 4.0 / 3 + more_iterations * 4.0 / 9;
+  return {
+      .bytes = area(request.size) * 4.0 * channels + pixels * 64 + samples * (64 + 4.0 * channels),
+      .seconds = pixels * iterations * (45 + 15.0 * params.tries) * 1e-9};
+}
+
+}  // namespace gramloom
