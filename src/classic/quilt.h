@@ -6,6 +6,7 @@
 #include "classic/patch_grid.h"
 #include "classic/quilt_direction.h"
 #include "classic/quilt_guide.h"
+#include "classic/seam_graph.h"
 #include "core/random.h"
 #include "core/request.h"
 
@@ -40,11 +41,11 @@ using QuiltReport = std::function<void(std::int64_t laid)>;
 Quilt lay_quilt(const QuiltMaterial& material, const PatchAxis& x, const PatchAxis& y,
                 const QuiltRules& rules, Random random, const QuiltReport& report);
 
-/// Lays those patches of the grid over a quilt that cover pixels whose `mask` is 1, and takes these
-/// pixels alone from them: all others stay, and count as the part of a patch that overlaps, less
-/// with their distance from such pixels.
-void fill_quilt(Quilt& quilt, const Image& mask, const QuiltMaterial& material, const PatchAxis& x,
-                const PatchAxis& y, const QuiltRules& rules, Random random,
+/// Lays those patches of the grid over a quilt that cover bare ground, row by row, and takes from
+/// them what is bare and, up to a cut, what is laid. What is firm stays, and counts as the part of
+/// a patch that overlaps, less with its distance from the rest.
+void fill_quilt(Quilt& quilt, std::vector<Ground> ground, const QuiltMaterial& material,
+                const PatchAxis& x, const PatchAxis& y, const QuiltRules& rules, Random random,
                 const QuiltReport& report);
 
 }  // namespace gramloom

@@ -13,24 +13,32 @@ namespace gramloom {
 
 namespace {
 
+/// How much a pixel that stays counts beside one that may change.
+constexpr float firm_weight = 4;
+
 std::size_t to_size(int value) { return static_cast<std::size_t>(value); }
 
-/// How much a pixel counts as overlap: 1 where `mask` is, then less by its distance from there down
+/// How much a pixel counts as overlap: 1 where it may change; where it may not, more beside those
+/// that may, as no cut can hide what doesn't fit there, and less with its distance from them down
 /// to 0 at `reach`. Axes that wrap do so here.
-std::vector<float> nearness(const Image& mask, int reach, bool wraps_x, bool wraps_y) {
-  cv::Mat1b away(mask.height, mask.width), padded;
-  for (int y = 0; y < mask.height; ++y)
-    for (int x = 0; x < mask.width; ++x) away(y, x) = *mask.at(x, y) > 0.5f ? 0 : 1;
+std::vector<float> overlap_weights(const std::vector<Ground>& ground, Size size, int reach,
+                                   bool wraps_x, bool wraps_y) {
+  cv::Mat1b firm(size.height, size.width), padded;
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x)
+      firm(y, x) = ground[to_size(y) * to_size(size.width) + to_size(x)] == Ground::firm ? 1 : 0;
   const int across = wraps_x ? reach : 0, down = wraps_y ? reach : 0;
-  cv::copyMakeBorder(away, padded, down, down, across, across, cv::BORDER_WRAP);
+  cv::copyMakeBorder(firm, padded, down, down, across, across, cv::BORDER_WRAP);
   cv::Mat1f distance;
   cv::distanceTransform(padded, distance, cv::DIST_L2, cv::DIST_MASK_5);
   std::vector<float> result;
-  result.reserve(mask.pixels.size());
-  for (int y = 0; y < mask.height; ++y)
-    for (int x = 0; x < mask.width; ++x)
-      result.push_back(
-          std::max(0.0f, 1 - distance(y + down, x + across) / static_cast<float>(reach + 1)));
+  result.reserve(ground.size());
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
+      const float away = distance(y + down, x + across);
+      const float near = std::max(0.0f, 1 - away / static_cast<float>(reach + 1));
+      result.push_back(away > 0 ? firm_weight * near * near : 1);
+    }
   return result;
 }
 
@@ -42,8 +50,8 @@ struct Laid {
 
 class Filling {
  public:
-  Filling(Quilt& quilt, const Image& mask, const QuiltMaterial& material, const PatchAxis& x,
-          const PatchAxis& y, const QuiltRules& rules)
+  Filling(Quilt& quilt, std::vector<Ground> ground, const QuiltMaterial& material,
+          const PatchAxis& x, const PatchAxis& y, const QuiltRules& rules)
       : quilt_(quilt),
         material_(material),
         x_(x),
@@ -52,10 +60,9 @@ class Filling {
         patch_{x.patch, y.patch},
         errors_(material.exemplar, patch_),
         reuse_(errors_.positions(), patch_),
-        counts_(nearness(mask, std::max(x.patch, y.patch) / 2, x.wraps, y.wraps)) {
-    ground_.reserve(mask.pixels.size());
-    for (const float m : mask.pixels) ground_.push_back(m > 0.5f ? Ground::bare : Ground::firm);
-  }
+        counts_(overlap_weights(ground, quilt.canvas.size(), std::max(x.patch, y.patch) / 2,
+                                x.wraps, y.wraps)),
+        ground_(std::move(ground)) {}
 
   /// Whether there is anything to be made under a patch.
   bool touches(const PatchSlot& slot) const {
@@ -195,10 +202,10 @@ Laid Filling::lay(const PatchSlot& slot, Random random) {
 
 }  // namespace
 
-void fill_quilt(Quilt& quilt, const Image& mask, const QuiltMaterial& material, const PatchAxis& x,
-                const PatchAxis& y, const QuiltRules& rules, Random random,
+void fill_quilt(Quilt& quilt, std::vector<Ground> ground, const QuiltMaterial& material,
+                const PatchAxis& x, const PatchAxis& y, const QuiltRules& rules, Random random,
                 const QuiltReport& report) {
-  Filling filling(quilt, mask, material, x, y, rules);
+  Filling filling(quilt, std::move(ground), material, x, y, rules);
   double error = 0;
   std::int64_t laid = 0;
   for (std::vector<PatchSlot> wave : waves(x, y)) {

@@ -80,10 +80,11 @@ std::vector<int> find_missed(const Quilt& quilt, const QuiltLabels& target,
   return missed;
 }
 
-Image mask_of(const std::vector<int>& missed, Size size) {
-  Image mask(size, 1);
-  std::ranges::transform(missed, mask.pixels.begin(), [](int m) { return m >= 0 ? 1.0f : 0.0f; });
-  return mask;
+std::vector<Ground> ground_of(const std::vector<int>& missed) {
+  std::vector<Ground> ground(missed.size());
+  std::ranges::transform(missed, ground.begin(),
+                         [](int m) { return m >= 0 ? Ground::bare : Ground::firm; });
+  return ground;
 }
 
 bool in_rows(Source a, Source b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }
@@ -105,8 +106,7 @@ Source find_pixel(const Quilt& quilt, const Exemplar& exemplar, const Label& lab
       continue;
     beside.push_back(quilt.canvas.at(at_x, at_y));
     const Source next(from_x - dx, from_y - dy);
-    if (std::ranges::binary_search(label.pixels, next, in_rows))
-      candidates.push_back(next);
+    if (std::ranges::binary_search(label.pixels, next, in_rows)) candidates.push_back(next);
   }
   for (int i = 0; i < tries; ++i)
     candidates.push_back(
@@ -123,7 +123,8 @@ Source find_pixel(const Quilt& quilt, const Exemplar& exemplar, const Label& lab
 }  // namespace
 
 void keep_labels(Quilt& quilt, const QuiltLabels& target, const Image& mask, Size patch,
-                 double overlap, const QuiltRules& rules, Random random) {
+                 double overlap, const QuiltRules& rules, Random random,
+                 const QuiltReport& report) {
   const std::vector<Label> labels = find_labels(target.exemplar);
   if (labels.empty()) return;
   const Size size = quilt.canvas.size();
@@ -141,8 +142,8 @@ void keep_labels(Quilt& quilt, const QuiltLabels& target, const Image& mask, Siz
                                    {x.patch, y.patch});
     QuiltRules own = rules;
     own.feather = 0;
-    fill_quilt(quilt, mask_of(missed, size), {target.exemplar.image, &direction}, x, y, own,
-               random.stream(round++), [](std::int64_t) {});
+    fill_quilt(quilt, ground_of(missed), {target.exemplar.image, &direction}, x, y, own,
+               random.stream(round++), report);
     missed = find_missed(quilt, target, labels, mask);
   }
   for (std::size_t i = 0; i < missed.size(); ++i) {

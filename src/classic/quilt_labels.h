@@ -19,6 +19,6 @@ struct QuiltLabels {
 /// nothing is done.
 /// `mask`: which pixels may be made anew; empty: all. `patch`: of the quilt.
 void keep_labels(Quilt& quilt, const QuiltLabels& labels, const Image& mask, Size patch,
-                 double overlap, const QuiltRules& rules, Random random);
+                 double overlap, const QuiltRules& rules, Random random, const QuiltReport& report);
 
 }  // namespace gramloom

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <utility>
 
@@ -21,6 +22,8 @@ constexpr int smallest_guide_patch = 5;
 constexpr int attempts = 8;
 /// Of holes and where there is no patch_size: large patches would hide much, and fit nowhere.
 constexpr int largest_fill_patch = 64;
+/// Smaller ones would hold nothing of a texture.
+constexpr int smallest_rim_patch = 12;
 
 int patch_side(const QuiltingParams& params, Size exemplar, bool guided, bool known) {
   if (params.patch_size > 0) return params.patch_size;
@@ -109,8 +112,52 @@ Quilt make_quilt(const Task& task, const Grid& grid, const QuiltRules& rules,
   if (task.known.empty()) return lay_quilt(material, grid.x, grid.y, rules, random, report);
   Quilt quilt{task.known, SourceMap(task.size)};
   std::ranges::fill(quilt.source.pixels, first_usable(task.exemplar));
-  fill_quilt(quilt, task.mask, material, grid.x, grid.y, rules, random, report);
+  std::vector<Ground> ground(task.mask.pixels.size());
+  std::ranges::transform(task.mask.pixels, ground.begin(),
+                         [](float m) { return m > 0.5f ? Ground::bare : Ground::firm; });
+  fill_quilt(quilt, std::move(ground), material, grid.x, grid.y, rules, random, report);
   return quilt;
+}
+
+/// Pixels of what is made that lie within `reach` of known ones, as bare ground, the others of it
+/// as laid.
+std::vector<Ground> rim_of(const Task& task, int reach) {
+  cv::Mat1b known(task.size.height, task.size.width), padded;
+  for (int y = 0; y < known.rows; ++y)
+    for (int x = 0; x < known.cols; ++x) known(y, x) = *task.mask.at(x, y) > 0.5f ? 0 : 1;
+  const int across = tiles_x(task.tile) ? reach : 0, down = tiles_y(task.tile) ? reach : 0;
+  cv::copyMakeBorder(known, padded, down, down, across, across, cv::BORDER_WRAP);
+  const cv::Mat1b wide = [&] {
+    cv::Mat1b result;
+    cv::dilate(padded, result, cv::Mat::ones(2 * reach + 1, 2 * reach + 1, CV_8U));
+    return result;
+  }();
+  std::vector<Ground> ground;
+  ground.reserve(task.mask.pixels.size());
+  for (int y = 0; y < known.rows; ++y)
+    for (int x = 0; x < known.cols; ++x)
+      ground.push_back(known(y, x) != 0                  ? Ground::firm
+                       : wide(y + down, x + across) != 0 ? Ground::bare
+                                                         : Ground::laid);
+  return ground;
+}
+
+/// Known pixels cannot give way to a cut: along them smaller patches, which fit better, are laid
+/// over the larger ones.
+void mend_rim(Quilt& quilt, const Task& task, int patch, double overlap, const QuiltRules& rules,
+              Random random, const QuiltReport& report) {
+  for (int side = patch / 2; side >= smallest_rim_patch; side /= 2) {
+    const auto axis = [&](int length, bool wraps) {
+      return cover(length, side, static_cast<int>(overlap * side), wraps);
+    };
+    const Grid grid{axis(task.size.width, tiles_x(task.tile)),
+                    axis(task.size.height, tiles_y(task.tile))};
+    std::optional<QuiltDirection> direction;
+    if (task.directed()) direction.emplace(task.exemplar, task.guide, task.weight, grid.patch());
+    fill_quilt(quilt, rim_of(task, std::max(1, side / 8)),
+               {task.exemplar.image, direction ? &*direction : nullptr}, grid.x, grid.y, rules,
+               random.stream(static_cast<std::uint64_t>(side)), report);
+  }
 }
 
 /// The one with the least error among `attempts` quilts.
@@ -172,12 +219,17 @@ Texture synthesise(const QuiltingParams& params, const Request& request, const C
   const std::int64_t patches = std::int64_t{grid.x.count()} * grid.y.count();
   control.step(0, patches);
   const auto guide = make_guide(params, task, patch, grid, request.random.stream(0));
+  std::int64_t done = 0;
   Quilt quilt = make_quilt(task, grid, rules, guide ? &*guide : nullptr, request.random.stream(1),
-                           [&](std::int64_t laid) { control.step(laid, patches); });
+                           [&](std::int64_t laid) { control.step(done = laid, patches); });
+  const auto go_on = [&](std::int64_t) { control.step(done, patches); };
+  if (!task.known.empty())
+    mend_rim(quilt, task, std::min(grid.x.patch, grid.y.patch), params.overlap, rules,
+             request.random.stream(3), go_on);
   if (!task.guide.empty())
     keep_labels(quilt, {task.exemplar, task.guide, task.weight, task.tile}, task.mask, grid.patch(),
-                params.overlap, rules, request.random.stream(2));
-  control.step(patches, patches);
+                params.overlap, rules, request.random.stream(2), go_on);
+  if (done < patches) control.step(patches, patches);
   united.name_sources(quilt.source);
   return {std::move(quilt.canvas), {}, std::move(quilt.source)};
 }
