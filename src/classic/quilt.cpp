@@ -22,6 +22,7 @@ struct Work {
   const PatchAxis& y;
   OverlapErrors overlap_errors;
   PatchReuse reuse;
+  ExemplarQuota quota;
   Image canvas;
   SourceMap source;
   Buffers buffers;
@@ -48,6 +49,18 @@ PatchOrigin anywhere(Size positions, Random& random) {
           static_cast<int>(random.below(static_cast<std::uint32_t>(positions.height)))};
 }
 
+/// errors += scale · what each exemplar's places cost.
+void add_quota(const Work& work, float scale, std::vector<float>& errors) {
+  if (work.quota.empty()) return;
+  const std::vector<float> costs = work.quota.costs();
+  const int width = work.overlap_errors.positions().width;
+  std::vector<float> of_column;
+  for (int u = 0; u < width; ++u)
+    of_column.push_back(scale * costs[work.quota.exemplar_at(u * work.material.quota_factor)]);
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    errors[i] += of_column[i % static_cast<std::size_t>(width)];
+}
+
 /// The errors of all positions, and up to which of them patches are drawn.
 float find_errors(Work& work, const Image& old, PatchOrigin place, const Sides& sides,
                   std::vector<float>& errors) {
@@ -59,6 +72,7 @@ float find_errors(Work& work, const Image& old, PatchOrigin place, const Sides& 
   if (work.material.guide)
     work.material.guide->add_to(errors, work.overlap_errors.positions(), place, work.canvas.size(),
                                 static_cast<float>(work.rules.guidance));
+  add_quota(work, scale, errors);
   if (!work.material.direction)
     return (1 + tolerance) * least_error(errors).error + work.overlap_errors.noise(sides);
   // What a patch must be for the guide's sake is not what another may be worse by.
@@ -120,6 +134,7 @@ Quilt lay_quilt(const QuiltMaterial& material, const PatchAxis& x, const PatchAx
             y,
             std::move(overlap_errors),
             std::move(reuse),
+            material.quota,
             Image(x.length, y.length, material.exemplar.channels),
             SourceMap({x.length, y.length}),
             {}};
@@ -135,6 +150,9 @@ Quilt lay_quilt(const QuiltMaterial& material, const PatchAxis& x, const PatchAx
     });
     for (const Choice& choice : choices) {
       work.reuse.add(choice.origin);
+      if (!work.quota.empty())
+        work.quota.add(work.quota.exemplar_at(choice.origin.x * material.quota_factor),
+                       1.0 / (x.count() * y.count()));
       error += choice.error;
     }
     laid += static_cast<std::int64_t>(wave.size());

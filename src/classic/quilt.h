@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "classic/exemplar_quota.h"
 #include "classic/patch_grid.h"
 #include "classic/quilt_direction.h"
 #include "classic/quilt_guide.h"
@@ -26,6 +27,8 @@ struct QuiltMaterial {
   const Image& exemplar;
   const QuiltDirection* direction = nullptr;
   const QuiltGuide* guide = nullptr;
+  ExemplarQuota quota = {};
+  int quota_factor = 1;  // columns of the quota's picture for one of the exemplar
 };
 
 struct Quilt {

@@ -142,7 +142,7 @@ void keep_labels(Quilt& quilt, const QuiltLabels& target, const Image& mask, Siz
                                    {x.patch, y.patch});
     QuiltRules own = rules;
     own.feather = 0;
-    fill_quilt(quilt, ground_of(missed), {target.exemplar.image, &direction}, x, y, own,
+    fill_quilt(quilt, ground_of(missed), {target.exemplar.image, &direction, nullptr}, x, y, own,
                random.stream(round++), report);
     missed = find_missed(quilt, target, labels, mask);
   }

@@ -57,6 +57,8 @@ struct Task {
   const Image& mask;
   const Image& guide;
   const Image& weight;
+  ExemplarQuota quota = {};
+  int quota_factor = 1;  // as QuiltMaterial
 
   bool directed() const { return !exemplar.mask.empty() || !guide.empty(); }
 };
@@ -68,6 +70,7 @@ struct QuarterTask {
   Image known, mask, guide, weight;
   Size size;
   Tile tile;
+  ExemplarQuota quota;
 
   explicit QuarterTask(const Task& task)
       : exemplar{quarter(task.exemplar.image),
@@ -79,9 +82,12 @@ struct QuarterTask {
         guide(quarter(task.guide)),
         weight(task.weight.size() == task.size ? quarter(task.weight) : task.weight),
         size{task.size.width / QuiltGuide::factor, task.size.height / QuiltGuide::factor},
-        tile(task.tile) {}
+        tile(task.tile),
+        quota(task.quota) {}
 
-  Task task() const { return {exemplar, size, tile, known, mask, guide, weight}; }
+  Task task() const {
+    return {exemplar, size, tile, known, mask, guide, weight, quota, QuiltGuide::factor};
+  }
 
  private:
   static Image quarter(const Image& image) {
@@ -108,7 +114,8 @@ Quilt make_quilt(const Task& task, const Grid& grid, const QuiltRules& rules,
                  const QuiltGuide* guide, Random random, const QuiltReport& report) {
   std::optional<QuiltDirection> direction;
   if (task.directed()) direction.emplace(task.exemplar, task.guide, task.weight, grid.patch());
-  const QuiltMaterial material{task.exemplar.image, direction ? &*direction : nullptr, guide};
+  const QuiltMaterial material{task.exemplar.image, direction ? &*direction : nullptr, guide,
+                               task.quota, task.quota_factor};
   if (task.known.empty()) return lay_quilt(material, grid.x, grid.y, rules, random, report);
   Quilt quilt{task.known, SourceMap(task.size)};
   std::ranges::fill(quilt.source.pixels, first_usable(task.exemplar));
@@ -155,8 +162,8 @@ void mend_rim(Quilt& quilt, const Task& task, int patch, double overlap, const Q
     std::optional<QuiltDirection> direction;
     if (task.directed()) direction.emplace(task.exemplar, task.guide, task.weight, grid.patch());
     fill_quilt(quilt, rim_of(task, std::max(1, side / 8)),
-               {task.exemplar.image, direction ? &*direction : nullptr}, grid.x, grid.y, rules,
-               random.stream(static_cast<std::uint64_t>(side)), report);
+               {task.exemplar.image, direction ? &*direction : nullptr, nullptr}, grid.x, grid.y,
+               rules, random.stream(static_cast<std::uint64_t>(side)), report);
   }
 }
 
@@ -209,8 +216,9 @@ Texture synthesise(const QuiltingParams& params, const Request& request, const C
   check_request<QuiltingParams>(request);
   const United united(request);
   const Target& target = request.target;
-  const Task task{united.exemplar(), target.size,    target.tile,        target.known,
-                  target.mask,       united.guide(), target.guide_weight};
+  const Task task{
+      united.exemplar(), target.size,    target.tile,         target.known,
+      target.mask,       united.guide(), target.guide_weight, ExemplarQuota(request, united)};
   const Size usable = usable_size(request.exemplars);
   const int patch = patch_side(params, usable, !task.guide.empty(), !task.known.empty());
   const Grid grid = make_grid(params, patch, usable, task.size, task.tile);

@@ -65,8 +65,8 @@ TEST(DirectedQuilting, HonoursLabels) {
 TEST(DirectedQuilting, UsesEveryExemplarAndMixesByWeights) {
   Request request{{{blobs(64, 50, 3, 1)}, {blobs(48, 60, 3, 2)}}, {{160, 120}}, Random(3)};
   const auto free = shares(quilt(request), 2);
-  EXPECT_GT(free[0], 0.1);
-  EXPECT_GT(free[1], 0.1);
+  EXPECT_GT(free[0], 0.25);
+  EXPECT_GT(free[1], 0.25);
   request.target.weights = Image({160, 120}, 2);
   for (int y = 0; y < 120; ++y)
     for (int x = 0; x < 160; ++x) request.target.weights.at(x, y)[x < 80 ? 0 : 1] = 1;
