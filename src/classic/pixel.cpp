@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "classic/known_pixels.h"
 #include "classic/pixel_algorithms.h"
 #include "core/error.h"
 #include "signal/united.h"
@@ -52,11 +53,7 @@ Texture synthesise(const PixelParams& params, const Request& request, const Cont
   SourceMap source = pixel::sources_of(sources(params, task, request.random, control));
   united.name_sources(source);
   Texture texture = texture_of(std::move(source), request.exemplars);
-  const auto channels = static_cast<std::size_t>(target.known.channels);
-  for (std::size_t i = 0; i < target.mask.pixels.size(); ++i)
-    if (target.mask.pixels[i] <= 0.5f)
-      std::copy_n(target.known.pixels.data() + i * channels, channels,
-                  texture.image.pixels.data() + i * channels);
+  keep_known(texture.image, target);
   return texture;
 }
 

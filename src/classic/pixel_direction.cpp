@@ -13,7 +13,7 @@ namespace gramloom::pixel {
 namespace {
 
 constexpr std::size_t most_cells = 64;
-constexpr double near_known = 16;      // pixels
+constexpr double near_known = 16;     // pixels
 constexpr double most_samples = 3e5;  // of an exemplar that is searched in full
 
 float squared_distance(const float* a, const float* b, std::size_t count) {

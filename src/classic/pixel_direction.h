@@ -41,8 +41,8 @@ struct Aim {
   float guide_error(const Level& level, int sample, int x, int y) const;
 };
 
-/// level_count() for a task. Where there are known pixels no more levels than bring the middle of the
-/// largest hole near to them, as far as the exemplar is not too large to be searched in full:
+/// level_count() for a task. Where there are known pixels no more levels than bring the middle of
+/// the largest hole near to them, as far as the exemplar is not too large to be searched in full:
 /// coarser ones would know less of what is to be continued.
 int level_count(int asked, const Task& task);
 
