@@ -38,6 +38,8 @@ ExitCode dispatch(int argc, char** argv) {
                                       add_maps(app),
                                       add_preview(app),
                                       add_tile(app),
+                                      add_fill(app),
+                                      add_arrange(app),
                                       add_export(app),
                                       add_benchmark(app)};
   try {

@@ -17,6 +17,7 @@ ContextTable::ContextTable(const std::vector<std::uint8_t>& symbols, Size size,
                    static_cast<std::size_t>(x)];
   };
   std::iota(positions_.begin(), positions_.end(), 0u);
+  std::erase_if(positions_, [&](std::uint32_t p) { return symbols[p] == unknown; });
   // Counting sorts from the last symbol of the context to the first: each keeps the order of the
   // one before.
   std::vector<std::uint32_t> sorted(positions_.size());

@@ -24,7 +24,7 @@ class ContextTable {
  public:
   static constexpr int unknown = 255;  // not a symbol: outside the image, or not there yet
 
-  /// One symbol (0 to 254) a pixel, row-major.
+  /// One symbol (0 to 254) a pixel, row-major; unknown ones are never drawn, and one must not be.
   ContextTable(const std::vector<std::uint8_t>& symbols, Size size, std::vector<Offset> offsets);
 
   const std::vector<Offset>& offsets() const { return offsets_; }

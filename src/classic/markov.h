@@ -31,11 +31,16 @@ inline constexpr std::array<std::string_view, 2> enum_names<MarkovNeighbourhood>
 /// an image are not neighbours; a margin that is cut off lets the chain settle. Where the result
 /// tiles, the pixels along the seam are then drawn again a few times given their neighbours on both
 /// sides (Geman & Geman 1984).
+///
+/// Pixels that may not be used are unknown symbols, as those beyond an edge are; several exemplars
+/// lie side by side with such a pixel between. Known pixels of the target are context like any
+/// others, and pixels that are made within 8 of them are drawn again as along a seam.
 struct MarkovParams {
   static constexpr std::string_view kind = "markov";
   static constexpr std::string_view summary =
       "pixels drawn given the preceding ones in scan order (streaks, or small structure)";
-  static constexpr Abilities abilities{Ability::exemplar, Ability::source};
+  static constexpr Abilities abilities{Ability::exemplar, Ability::exemplars, Ability::mask,
+                                       Ability::fill, Ability::source};
   int order = 4;
   int colours = 16;
   MarkovNeighbourhood neighbourhood = MarkovNeighbourhood::row;

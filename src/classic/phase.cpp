@@ -10,7 +10,7 @@ Texture synthesise(const PhaseParams& params, const Request& request, const Cont
   check_request<PhaseParams>(request);
   const Target& target = request.target;
   control.step(0, 1);
-  Image result = random_phase_texture(request.exemplars.front().image, target.size, target.tile,
+  Image result = random_phase_texture(request.exemplars, target.weights, target.size, target.tile,
                                       params.fade, request.random);
   control.step(1, 1);
   return {std::move(result)};
@@ -18,15 +18,21 @@ Texture synthesise(const PhaseParams& params, const Request& request, const Cont
 
 Cost estimate(const PhaseParams&, const RequestSize& request) {
   check_request<PhaseParams>(request);
-  const Size exemplar = request.exemplars.front().size;
   const int channels = request.exemplars.front().channels;
-  const double in = static_cast<double>(exemplar.width) * exemplar.height;
-  const double out = static_cast<double>(std::max(request.size.width, exemplar.width)) *
-                     std::max(request.size.height, exemplar.height);
+  Size period = request.size;
+  double in = 0;
+  for (const ExemplarSize& exemplar : request.exemplars) {
+    in += static_cast<double>(exemplar.size.width) * exemplar.size.height;
+    period = {std::max(period.width, exemplar.size.width),
+              std::max(period.height, exemplar.size.height)};
+  }
+  const double out = static_cast<double>(period.width) * period.height;
+  const auto exemplars = static_cast<double>(request.exemplars.size());
   const int in_flight = std::min(channels, thread_count());
   // Each channel in flight: its plane, spectrum and the transform's own copy; the phases are
   // shared.
-  return {4 * channels * (in + out) + in_flight * 24 * out + 4 * out, channels * 5e-8 * out};
+  return {4 * channels * (in + out) + in_flight * 24 * out + 4 * out,
+          exemplars * channels * 5e-8 * out};
 }
 
 }  // namespace gramloom

@@ -23,11 +23,20 @@ namespace gramloom {
 /// which differs by less than the random phases do. A tile smaller than the exemplar, which the
 /// paper does not treat, wraps the spot around: its covariance is the exemplar's, wrapped likewise.
 /// The result, which is close to Gaussian, is clamped to the exemplar's range.
+///
+/// Masked exemplars: the spot is their usable pixels alone, less their mean, among zeros and
+/// normalised by their number (the discrete spot of Galerne, Leclaire, Moisan 2017, "Texton noise",
+/// section 2); no periodic component is taken, and nothing fades.
+/// Several exemplars: each has noise of its own, and these are added times the roots of their
+/// shares, so that mean and covariance are the weighted ones, constant or from place to place (not
+/// the barycentre of Xia, Ferradans, Peyré, Aujol 2014, which needs one phase for all). Without
+/// weights the shares are those of usable pixels.
 struct PhaseParams {
   static constexpr std::string_view kind = "phase";
   static constexpr std::string_view summary =
       "the exemplar's spectrum with random phases (grain without structure)";
-  static constexpr Abilities abilities{Ability::exemplar};
+  static constexpr Abilities abilities{Ability::exemplar, Ability::exemplars, Ability::mask,
+                                       Ability::mix};
   double fade = usual_fade;
   static constexpr auto fields() {
     return std::tuple{

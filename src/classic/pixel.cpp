@@ -3,22 +3,34 @@
 #include <algorithm>
 #include <cmath>
 
+#include "classic/known_pixels.h"
 #include "classic/pixel_algorithms.h"
+#include "core/error.h"
+#include "signal/united.h"
 
 namespace gramloom {
 namespace {
 
-pixel::Canvas sources(const PixelParams& params, const Image& exemplar, const Target& target,
-                      Random random, const Control& control) {
+pixel::Canvas sources(const PixelParams& params, const pixel::Task& task, Random random,
+                      const Control& control) {
   switch (params.algorithm) {
     case PixelAlgorithm::efros_leung:
-      return pixel::efros_leung(params, exemplar, target, random, control);
+      return pixel::efros_leung(params, task, random, control);
     case PixelAlgorithm::wei_levoy:
-      return pixel::wei_levoy(params, exemplar, target, random, control);
+      return pixel::wei_levoy(params, task, random, control);
     case PixelAlgorithm::lefebvre_hoppe:
       break;
   }
-  return pixel::lefebvre_hoppe(params, exemplar, target, random, control);
+  return pixel::lefebvre_hoppe(params, task, random, control);
+}
+
+/// What one of the algorithms cannot do.
+void check_algorithm(const PixelParams& params, const RequestSize& request) {
+  if (params.algorithm == PixelAlgorithm::wei_levoy && request.known)
+    throw Error(
+        "pixel with algorithm = \"wei_levoy\" cannot fill, since it chooses pixels in scan order: "
+        "a "
+        "target's mask is given (lefebvre_hoppe and efros_leung can)");
 }
 
 }  // namespace
@@ -26,17 +38,32 @@ pixel::Canvas sources(const PixelParams& params, const Image& exemplar, const Ta
 Texture synthesise(const PixelParams& params, const Request& request, const Control& control) {
   check_fields(params);
   check_request<PixelParams>(request);
-  const Image& exemplar = request.exemplars.front().image;
+  check_algorithm(params, size_of(request));
+  const United united(request);
   const Target& target = request.target;
-  return texture_of(pixel::sources_of(sources(params, exemplar, target, request.random, control)),
-                    request.exemplars);
+  const pixel::Task task{united.exemplar(),
+                         target.size,
+                         target.tile,
+                         target.known,
+                         target.mask,
+                         united.guide(),
+                         target.guide_weight,
+                         united.guide().channels - target.guide.channels,
+                         ExemplarQuota(request, united)};
+  SourceMap source = pixel::sources_of(sources(params, task, request.random, control));
+  united.name_sources(source);
+  Texture texture = texture_of(std::move(source), request.exemplars);
+  keep_known(texture.image, target);
+  return texture;
 }
 
 Cost estimate(const PixelParams& params, const RequestSize& request) {
   check_request<PixelParams>(request);
-  const Size exemplar = request.exemplars.front().size;
+  check_algorithm(params, request);
   const int channels = request.exemplars.front().channels;
-  const double from = static_cast<double>(exemplar.width) * exemplar.height;
+  double from = 0;
+  for (const ExemplarSize& exemplar : request.exemplars)
+    from += static_cast<double>(exemplar.size.width) * exemplar.size.height;
   const double to = static_cast<double>(request.size.width) * request.size.height;
   const double compared = std::min(channels, 4);
   const double candidates = params.candidates;
@@ -46,14 +73,20 @@ Cost estimate(const PixelParams& params, const RequestSize& request) {
   // Levels, features and lists of like samples while they are made; canvases, colours and result.
   cost.bytes = from * (8 * channels + 16 * compared + 64 + 20 * candidates + 8) +
                to * (4 * channels + 4 * compared + 40 + sizeof(Source)) + 5e6;
+  // The joined picture, and known pixels, guides and weights on all levels.
+  if (request.exemplars.size() > 1 || request.exemplars.front().mask)
+    cost.bytes += from * 4 * channels;
+  if (request.known) cost.bytes += to * (4 * channels + 8 * compared);
+  if (request.guide || request.weights) cost.bytes += 32 * (from + to);
   // Fitted to runs on two cores.
+  const double made = to * request.made;
   const double trials = params.algorithm == PixelAlgorithm::lefebvre_hoppe ? params.passes : 1;
   if (params.search == PixelSearch::exact)
-    cost.seconds = trials * to * from * window * compared / 1e10;
+    cost.seconds = trials * made * from * window * compared / 1e10;
   else if (params.algorithm == PixelAlgorithm::lefebvre_hoppe)
-    cost.seconds = 1e-6 * candidates * from + 1.3e-7 * trials * candidates * to;
+    cost.seconds = 1e-6 * candidates * from + 1.3e-7 * trials * candidates * made;
   else
-    cost.seconds = 1e-6 * candidates * from + 6e-8 * window * candidates * to;
+    cost.seconds = 1e-6 * candidates * from + 6e-8 * window * candidates * made;
   return cost;
 }
 

@@ -52,7 +52,9 @@ struct PixelParams {
   static constexpr std::string_view summary =
       "pixels of the exemplar whose neighbourhoods fit (Lefebvre & Hoppe 2005; Wei & Levoy 2000; "
       "Efros & Leung 1999)";
-  static constexpr Abilities abilities{Ability::exemplar, Ability::source};
+  static constexpr Abilities abilities{Ability::exemplar, Ability::exemplars, Ability::mask,
+                                       Ability::guide,    Ability::mix,       Ability::fill,
+                                       Ability::source};
 
   PixelAlgorithm algorithm = PixelAlgorithm::lefebvre_hoppe;
   PixelSearch search = PixelSearch::coherence;

@@ -2,17 +2,18 @@
 
 #include "classic/pixel.h"
 #include "classic/pixel_canvas.h"
+#include "classic/pixel_direction.h"
 #include "classic/pixel_match.h"
 
 namespace gramloom::pixel {
 
 // The three ways to choose each pixel's source; see PixelParams for the papers and departures.
-Canvas lefebvre_hoppe(const PixelParams& params, const Image& exemplar, const Target& target,
-                      Random random, const Control& control);
-Canvas wei_levoy(const PixelParams& params, const Image& exemplar, const Target& target,
-                 Random random, const Control& control);
-Canvas efros_leung(const PixelParams& params, const Image& exemplar, const Target& target,
-                   Random random, const Control& control);
+Canvas lefebvre_hoppe(const PixelParams& params, const Task& task, Random random,
+                      const Control& control);
+Canvas wei_levoy(const PixelParams& params, const Task& task, Random random,
+                 const Control& control);
+Canvas efros_leung(const PixelParams& params, const Task& task, Random random,
+                   const Control& control);
 
 /// The samples like each sample of a level: itself and candidates − 1 others, at least a twentieth
 /// of the exemplar apart. Shape [sample][candidates].

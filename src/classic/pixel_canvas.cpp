@@ -20,8 +20,8 @@ Canvas refined(const Canvas& coarse, const Level& from, const Level& to, Size si
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
       const Point p = coarse.at(x / 2, y / 2);
-      canvas.at(x, y) =
-          to.nearest({p.x * from.ratio + x % 2 * to.step, p.y * from.ratio + y % 2 * to.step});
+      canvas.at(x, y) = to.nearest_usable(
+          {p.x * from.ratio + x % 2 * to.step, p.y * from.ratio + y % 2 * to.step});
     }
   return canvas;
 }

@@ -21,7 +21,8 @@ std::vector<Point> coherent_candidates(const Canvas& canvas, const std::vector<b
       if (!canvas.wrap(near_x, near_y) || !known[canvas.index(near_x, near_y)]) continue;
       for (const Point like : similar(level, canvas.at(near_x, near_y))) {
         const Point p{like.x - dx * level.step, like.y - dy * level.step};
-        if (level.contains(p) && std::find(found.begin(), found.end(), p) == found.end())
+        if (level.contains(p) && level.may_use(level.index(p)) &&
+            std::find(found.begin(), found.end(), p) == found.end())
           found.push_back(p);
       }
     }

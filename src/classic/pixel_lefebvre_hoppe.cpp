@@ -12,43 +12,70 @@
 namespace gramloom::pixel {
 namespace {
 
+/// Samples with the wanted guide that are tried for each pixel, beside those that continue others.
+constexpr int drawn_by_guide = 8;
+
 /// What finds the best source for a pixel at one level.
 struct Matcher {
   const Level& level;
+  const Aim& aim;
   const PixelParams& params;
   Projection projection;
   std::vector<Feature> features;
   std::vector<Point> similar;  // [sample][candidates]
   Reference reference;         // for the exact search
   std::vector<float> weights;
+  float all_weights = 0;
+  GuideCells cells;
 
-  Matcher(const Level& level_, const PixelParams& params_, Random random)
+  Matcher(const Level& level_, const Aim& aim_, const PixelParams& params_, Random random)
       : level(level_),
+        aim(aim_),
         params(params_),
         projection(make_projection(level, params.radius, random.stream(0))),
         features(make_features(level, projection)),
         similar(similar_samples(level, features, params.candidates, distance_apart(level),
                                 random.stream(1))),
         reference(level, params.search == PixelSearch::exact ? params.radius : 0),
-        weights(gaussian_weights(params.radius)) {}
-
-  Point best(const Canvas& canvas, const Plane& plane, int x, int y) const {
-    return params.search == PixelSearch::exact ? best_of_all(plane, x, y)
-                                               : best_of_coherent(canvas, plane, x, y);
+        weights(gaussian_weights(params.radius)) {
+    for (const float weight : weights) all_weights += weight;
+    if (!aim.guide.empty()) cells = GuideCells(level, random.stream(2));
   }
 
+  /// `random`: of this pixel in this pass.
+  Point best(const Canvas& canvas, const Plane& plane, int x, int y, Random random) const {
+    return params.search == PixelSearch::exact ? best_of_all(plane, x, y)
+                                               : best_of_coherent(canvas, plane, x, y, random);
+  }
+  /// By features, of all samples.
+  Point nearest(const Plane& plane, int x, int y) const;
+
  private:
-  Point best_of_coherent(const Canvas& canvas, const Plane& plane, int x, int y) const;
+  Point best_of_coherent(const Canvas& canvas, const Plane& plane, int x, int y,
+                         Random random) const;
   Point best_of_all(const Plane& plane, int x, int y) const;
+  bool guides(int x, int y) const { return !aim.guide.empty() && aim.is_made(aim.index(x, y)); }
 };
 
-Point Matcher::best_of_coherent(const Canvas& canvas, const Plane& plane, int x, int y) const {
+Point Matcher::best_of_coherent(const Canvas& canvas, const Plane& plane, int x, int y,
+                                Random random) const {
   const Feature wanted = plane.feature(projection, x, y);
   const auto candidates = static_cast<std::size_t>(params.candidates);
   std::array<Point, 9 * 16> tried;
   auto end = tried.begin();
   Point best = canvas.at(x, y);
   float least = INFINITY;
+  const bool guided = guides(x, y);
+  const auto consider = [&](Point p) {
+    const int sample = level.index(p);
+    if (!level.may_use(sample)) return;
+    float distance = squared_distance(wanted, features[static_cast<std::size_t>(sample)]);
+    if (guided) distance += all_weights * aim.guide_error(level, sample, x, y);
+    if (distance < least) {
+      least = distance;
+      best = p;
+    }
+  };
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) {
       int near_x = x + dx, near_y = y + dy;
@@ -58,14 +85,12 @@ Point Matcher::best_of_coherent(const Canvas& canvas, const Plane& plane, int x,
         const Point p{similar[i].x - dx * level.step, similar[i].y - dy * level.step};
         if (!level.contains(p) || std::find(tried.begin(), end, p) != end) continue;
         *end++ = p;
-        const float distance =
-            squared_distance(wanted, features[static_cast<std::size_t>(level.index(p))]);
-        if (distance < least) {
-          least = distance;
-          best = p;
-        }
+        consider(p);
       }
     }
+  if (guided)
+    for (int i = 0; i < drawn_by_guide; ++i)
+      consider(level.point(cells.draw(aim.guide.at(x, y), random)));
   return best;
 }
 
@@ -75,9 +100,24 @@ Point Matcher::best_of_all(const Plane& plane, int x, int y) const {
   for (int dy = -params.radius; dy <= params.radius; ++dy)
     for (int dx = -params.radius; dx <= params.radius; ++dx)
       neighbourhood.push_back({reference.offset(dx, dy), *weight++, plane.at(x + dx, y + dy)});
-  const auto errors = reference.errors(neighbourhood);
+  auto errors = reference.errors(neighbourhood);
+  add_direction(level, aim, x, y, all_weights, errors);
   return level.point(
       static_cast<int>(std::min_element(errors.begin(), errors.end()) - errors.begin()));
+}
+
+Point Matcher::nearest(const Plane& plane, int x, int y) const {
+  const Feature wanted = plane.feature(projection, x, y);
+  int best = 0;
+  float least = INFINITY;
+  for (int i = 0; i < level.count(); ++i) {
+    const float distance = squared_distance(wanted, features[static_cast<std::size_t>(i)]);
+    if (distance < least && level.may_use(i)) {
+      least = distance;
+      best = i;
+    }
+  }
+  return level.point(best);
 }
 
 /// 1 for each pixel within `radius` of one that is 1; edges meet.
@@ -95,17 +135,36 @@ std::vector<std::uint8_t> widened(std::vector<std::uint8_t>& mask, Size size, in
 /// Corrections of a canvas at one level.
 class Correction {
  public:
-  Correction(const Matcher& matcher, Canvas& canvas)
+  /// `random`: of the level.
+  Correction(const Matcher& matcher, Canvas& canvas, Random random)
       : matcher_(matcher),
         canvas_(canvas),
-        plane_(canvas, matcher.level, matcher.params.radius),
-        changed_(canvas.source.size(), 1) {}
+        plane_(canvas, matcher.level, matcher.aim, matcher.params.radius),
+        random_(random),
+        changed_(canvas.source.size(), 1) {
+    if (!matcher.aim.made.empty()) rim_ = rim(matcher.aim, canvas.tile, matcher.params.radius);
+  }
+
+  /// Gives known pixels about those to be made the sources that they are most like: what is made
+  /// continues these.
+  void find_rim() {
+    parallel_for(
+        static_cast<std::int64_t>(rim_.size()), 64, [&](std::int64_t begin, std::int64_t end) {
+          for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+            if (rim_[i] != 0)
+              canvas_.source[i] = matcher_.nearest(plane_, static_cast<int>(i) % canvas_.size.width,
+                                                   static_cast<int>(i) / canvas_.size.width);
+        });
+  }
 
   /// One correction of every pixel about which something changed during the pass before, in 4
   /// sub-passes of every second pixel in x and y. The pixels of a sub-pass see each other as they
   /// were before it, so their order does not matter.
   void pass(const std::function<void(double)>& report) {
     active_ = widened(changed_, canvas_.size, matcher_.params.radius);
+    for (std::size_t i = 0; i < rim_.size(); ++i)
+      if (rim_[i] == 0 && !matcher_.aim.is_made(i)) active_[i] = 0;
+    random_ = random_.stream(active_.size());
     std::fill(changed_.begin(), changed_.end(), std::uint8_t{0});
     double done = 0;
     for (const Point first : {Point{0, 0}, Point{1, 1}, Point{0, 1}, Point{1, 0}}) {
@@ -132,8 +191,9 @@ class Correction {
     auto out = chosen_.begin() + static_cast<std::ptrdiff_t>(begin) * columns;
     for (int y = first.y + 2 * begin; y < first.y + 2 * end; y += 2)
       for (int x = first.x; x < canvas_.size.width; x += 2)
-        *out++ =
-            active_[canvas_.index(x, y)] ? matcher_.best(canvas_, plane_, x, y) : canvas_.at(x, y);
+        *out++ = active_[canvas_.index(x, y)]
+                     ? matcher_.best(canvas_, plane_, x, y, random_.stream(canvas_.index(x, y)))
+                     : canvas_.at(x, y);
   }
 
   void take(Point first, int columns, int begin, int end) {
@@ -150,7 +210,9 @@ class Correction {
   const Matcher& matcher_;
   Canvas& canvas_;
   Plane plane_;
+  Random random_;
   std::vector<std::uint8_t> changed_, active_;
+  std::vector<std::uint8_t> rim_;  // known pixels that have sources too; empty: there are none
   std::vector<Point> chosen_;
 };
 
@@ -163,18 +225,19 @@ void displace(Canvas& canvas, const Level& level, double jitter, Random random) 
       return static_cast<int>(std::floor(here.uniform(-reach, reach) + 0.5f));
     };
     const int dx = shift(), dy = shift();
-    canvas.source[i] = level.nearest({canvas.source[i].x + dx, canvas.source[i].y + dy});
+    canvas.source[i] = level.nearest_usable({canvas.source[i].x + dx, canvas.source[i].y + dy});
   }
 }
 
 }  // namespace
 
-Canvas lefebvre_hoppe(const PixelParams& params, const Image& exemplar, const Target& target,
-                      Random random, const Control& control) {
-  const int count = level_count(params.levels, exemplar.size(), target.size);
-  const auto levels = make_levels(exemplar, count);
-  Canvas canvas = quilted_start(levels.back(), size_at(target.size, count - 1), target.tile,
-                                params.variety, random.stream(0));
+Canvas lefebvre_hoppe(const PixelParams& params, const Task& task, Random random,
+                      const Control& control) {
+  const int count = level_count(params.levels, task);
+  auto levels = make_levels(task.exemplar.image, count);
+  const std::vector<Aim> aims = direct(levels, task, params.radius);
+  Canvas canvas = quilted_start(levels.back(), aims.back(), task.tile, params.variety, task.quota,
+                                1 << std::max(0, count - 2), random.stream(0));
   // Progress counts pixels times passes; each level has 4 times the one before.
   const double all = static_cast<double>(params.passes) * (std::pow(4.0, count) - 1) / 3;
   double before = 0;
@@ -182,11 +245,12 @@ Canvas lefebvre_hoppe(const PixelParams& params, const Image& exemplar, const Ta
     const auto i = static_cast<std::size_t>(l);
     const Level& level = levels[i];
     if (l < count - 1) {
-      canvas = refined(canvas, levels[i + 1], level, size_at(target.size, l));
+      canvas = refined(canvas, levels[i + 1], level, aims[i].size);
       displace(canvas, level, params.jitter, random.stream(2 * i + 1));
     }
-    const Matcher matcher(level, params, random.stream(2 * i + 2));
-    Correction correction(matcher, canvas);
+    const Matcher matcher(level, aims[i], params, random.stream(2 * i + 2));
+    Correction correction(matcher, canvas, random.stream(2 * i + 2).stream(3));
+    if (l == count - 1) correction.find_rim();
     const double pixels = std::pow(4.0, count - 1 - l);
     for (int pass = 0; pass < params.passes; ++pass, before += pixels)
       correction.pass([&](double done) {

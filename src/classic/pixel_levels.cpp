@@ -5,8 +5,6 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "signal/colour_pca.h"
-
 namespace gramloom::pixel {
 namespace {
 
@@ -17,13 +15,12 @@ cv::Mat view(Image& image) {
 }
 cv::Mat view(const Image& image) { return view(const_cast<Image&>(image)); }
 
-/// The exemplar along its principal axes of colour, at most 4, with mean 0 and total variance 1.
-Image comparison_colours(const Image& exemplar) {
-  const ColourPca pca = colour_pca(exemplar);
+}  // namespace
+
+Image comparison_colours(const Image& image, const ColourPca& pca) {
   const double deviation = total_deviation(pca);
   const double scale = deviation > 0 ? 1 / deviation : 0;
-  Image result =
-      extract_channels(whitened(exemplar, pca), 0, std::min(exemplar.channels, most_channels));
+  Image result = extract_channels(whitened(image, pca), 0, std::min(image.channels, most_channels));
   const auto channels = static_cast<std::size_t>(result.channels);
   for (std::size_t i = 0; i < result.pixels.size(); ++i)
     result.pixels[i] *=
@@ -31,7 +28,6 @@ Image comparison_colours(const Image& exemplar) {
   return result;
 }
 
-/// The 5-tap binomial filter of the Gaussian pyramid.
 Image blurred(const Image& image) {
   static const cv::Mat taps = (cv::Mat_<float>(1, 5) << 1, 4, 6, 4, 1) / 16;
   Image result(image.size(), image.channels);
@@ -40,8 +36,7 @@ Image blurred(const Image& image) {
   return result;
 }
 
-/// Every second sample, from the first.
-Image halved(const Image& image) {
+Image halved_samples(const Image& image) {
   Image result((image.width + 1) / 2, (image.height + 1) / 2, image.channels);
   for (int y = 0; y < result.height; ++y)
     for (int x = 0; x < result.width; ++x)
@@ -49,16 +44,14 @@ Image halved(const Image& image) {
   return result;
 }
 
-}  // namespace
-
 std::vector<Level> make_levels(const Image& exemplar, int count) {
-  std::vector<Level> levels{{comparison_colours(exemplar), 1, 1}};
+  std::vector<Level> levels{{comparison_colours(exemplar, colour_pca(exemplar)), 1, 1}};
   while (static_cast<int>(levels.size()) < count) {
     const Image& finer = levels.back().colours;
     if (levels.size() == 1)
       levels.push_back({blurred(finer), 2, 1});
     else
-      levels.push_back({blurred(halved(finer)), 2, 2});
+      levels.push_back({blurred(halved_samples(finer)), 2, 2});
   }
   return levels;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "signal/colour_pca.h"
 
 namespace gramloom::pixel {
 
@@ -25,8 +26,10 @@ struct Point {
 /// Hoppe 2005, at a third of its size).
 struct Level {
   Image colours;
-  int step = 1;   // samples between neighbouring pixels of this level
-  int ratio = 1;  // samples of the next finer level for one of this level
+  int step = 1;      // samples between neighbouring pixels of this level
+  int ratio = 1;     // samples of the next finer level for one of this level
+  Image guide = {};  // of a directed synthesis (pixel_direction.h): the guide, and its local mean
+  std::vector<int> usable = {};  // the index of the nearest sample that may be used; empty: its own
 
   int count() const { return colours.width * colours.height; }
   int index(Point p) const { return p.y * colours.width + p.x; }
@@ -34,6 +37,14 @@ struct Level {
   /// p, or the sample of the edge that is nearest to it.
   Point nearest(Point p) const {
     return {std::clamp(p.x, 0, colours.width - 1), std::clamp(p.y, 0, colours.height - 1)};
+  }
+  bool may_use(int index) const {
+    return usable.empty() || usable[static_cast<std::size_t>(index)] == index;
+  }
+  /// The sample that may be used and is nearest to p, about.
+  Point nearest_usable(Point p) const {
+    p = nearest(p);
+    return usable.empty() ? p : point(usable[static_cast<std::size_t>(index(p))]);
   }
   /// p, or its mirror image where it lies outside.
   Point mirrored(Point p) const {
@@ -49,9 +60,16 @@ struct Level {
   }
 };
 
-/// Finest first. Only comparisons see the colours: along the exemplar's principal axes, the first
-/// 4 where it has more channels, scaled so that their variance, summed over channels, is 1.
+/// What comparisons see of colours: along the exemplar's principal axes, the first 4 where it has
+/// more channels, scaled so that their variance, summed over channels, is 1.
+Image comparison_colours(const Image& image, const ColourPca& exemplar);
+
+/// Finest first.
 std::vector<Level> make_levels(const Image& exemplar, int count);
+
+/// The 5-tap binomial filter of the Gaussian pyramid, and every second sample, from the first.
+Image blurred(const Image& image);
+Image halved_samples(const Image& image);
 
 /// `asked`, or if that is 0 as many as bring the shorter side of both down to 20 to 39 pixels;
 /// never more than leave the exemplar a pixel.

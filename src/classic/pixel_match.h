@@ -40,6 +40,9 @@ class Reference {
   std::vector<Image> planes_;  // one channel each, with a border
 };
 
+/// The error of a sample that may not be used: above all others.
+inline constexpr float out_of_reach = 1e30f;
+
 /// Whether the least error is below that of pixels taken at random: 2 per unit of weight, since the
 /// variance of the colours is 1. Where it is not, every candidate leaves the exemplar or belongs
 /// elsewhere, and the search must go beyond them.

@@ -6,8 +6,9 @@
 
 namespace gramloom::pixel {
 
-Plane::Plane(const Canvas& canvas, const Level& level, int border)
+Plane::Plane(const Canvas& canvas, const Level& level, const Aim& aim, int border)
     : level_(level),
+      aim_(aim),
       border_(border),
       image_(canvas.size.width + 2 * border, canvas.size.height + 2 * border,
              level.colours.channels) {
@@ -19,7 +20,11 @@ Plane::Plane(const Canvas& canvas, const Level& level, int border)
 
 void Plane::set(const Canvas& canvas, int x, int y) {
   int inside_x = x, inside_y = y;
-  canvas.wrap(inside_x, inside_y);
+  if (canvas.wrap(inside_x, inside_y) && !aim_.is_made(canvas.index(inside_x, inside_y))) {
+    std::copy_n(aim_.colours.at(inside_x, inside_y), image_.channels,
+                image_.at(x + border_, y + border_));
+    return;
+  }
   const int edge_x = std::clamp(inside_x, 0, canvas.size.width - 1);
   const int edge_y = std::clamp(inside_y, 0, canvas.size.height - 1);
   const Point edge = canvas.at(edge_x, edge_y);

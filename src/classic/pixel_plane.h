@@ -1,15 +1,17 @@
 #pragma once
 
 #include "classic/pixel_canvas.h"
+#include "classic/pixel_direction.h"
 #include "classic/pixel_features.h"
 
 namespace gramloom::pixel {
 
 /// The colours of a canvas with a border around it, so that every neighbourhood lies in one
-/// picture. Beyond an edge that does not tile, the source of the edge pixel goes on.
+/// picture. Known pixels have the colours of the aim. Beyond an edge that does not tile, the source
+/// of the edge pixel goes on.
 class Plane {
  public:
-  Plane(const Canvas& canvas, const Level& level, int border);
+  Plane(const Canvas& canvas, const Level& level, const Aim& aim, int border);
 
   /// Takes pixel (x, y) from the canvas; it may lie in the border.
   void set(const Canvas& canvas, int x, int y);
@@ -27,6 +29,7 @@ class Plane {
 
  private:
   const Level& level_;
+  const Aim& aim_;
   int border_;
   Image image_;
 };

@@ -84,11 +84,16 @@ struct Lists {
     }
   }
 
+  /// Samples that may not be used are like none, and none is like them.
+  bool may_pair(std::int32_t a, std::int32_t b) const {
+    return far_enough(a, b) && level.may_use(a) && level.may_use(b);
+  }
+
   void search_leaf(const Indices& order, Span leaf) {
     for (std::size_t i = leaf.begin; i < leaf.end; ++i)
       for (std::size_t j = i + 1; j < leaf.end; ++j) {
         const std::int32_t a = order[i], b = order[j];
-        if (!far_enough(a, b)) continue;
+        if (!may_pair(a, b)) continue;
         const float distance = squared_distance(features[static_cast<std::size_t>(a)],
                                                 features[static_cast<std::size_t>(b)]);
         insert(a, b, distance);
@@ -109,7 +114,7 @@ struct Lists {
         const Point other{suggestion.x - d.x, suggestion.y - d.y};
         if (!level.contains(other)) continue;
         const std::int32_t index = level.index(other);
-        if (far_enough(sample, index))
+        if (may_pair(sample, index))
           insert(sample, index,
                  squared_distance(features[static_cast<std::size_t>(sample)],
                                   features[static_cast<std::size_t>(index)]));

@@ -21,10 +21,11 @@ int floor_half(int value, int ratio) {
 /// Synthesis of one level in scan order.
 class Scan {
  public:
-  Scan(const PixelParams& params, const Level& level, const Parent* parent, Canvas& canvas,
-       Random random)
+  Scan(const PixelParams& params, const Level& level, const Aim& aim, const Parent* parent,
+       Canvas& canvas, Random random)
       : params_(params),
         level_(level),
+        aim_(aim),
         parent_(parent),
         reference_(level, params.radius),
         random_(random),
@@ -39,13 +40,17 @@ class Scan {
     Random random = random_.stream(2 * canvas_.index(x, y) + whole + 2);
     const auto about = neighbourhood(x, y, whole);
     const auto above = parent_ ? parents(x, y) : std::vector<Known>{};
+    const auto weight = static_cast<float>(std::max<std::size_t>(1, about.size() + above.size()));
     // The coarsest level is small, and all others follow it: it is always searched in full.
     if (params_.search == PixelSearch::coherence && parent_) {
       const auto candidates = coherent_candidates(canvas_, known_, level_, similar_, x, y);
       std::vector<float> errors;
-      for (const Point p : candidates)
+      for (const Point p : candidates) {
         errors.push_back(reference_.error(about, p) +
                          parent_->reference.error(above, parent_sample(p, x, y)));
+        if (!aim_.guide.empty())
+          errors.back() += weight * aim_.guide_error(level_, level_.index(p), x, y);
+      }
       if (fits_at_all(errors, about)) {
         canvas_.at(x, y) = candidates[pick(errors, params_.tolerance, random)];
         return;
@@ -53,6 +58,7 @@ class Scan {
     }
     auto errors = reference_.errors(about);
     if (parent_) add_parent_errors(parent_->reference.errors(above), x, y, errors);
+    add_direction(level_, aim_, x, y, weight, errors);
     canvas_.at(x, y) = level_.point(static_cast<int>(pick(errors, params_.tolerance, random)));
   }
 
@@ -111,6 +117,7 @@ class Scan {
 
   const PixelParams& params_;
   const Level& level_;
+  const Aim& aim_;
   const Parent* parent_;
   Reference reference_;
   Random random_;
@@ -121,28 +128,29 @@ class Scan {
 
 }  // namespace
 
-Canvas wei_levoy(const PixelParams& params, const Image& exemplar, const Target& target,
-                 Random random, const Control& control) {
-  const int count = level_count(params.levels, exemplar.size(), target.size);
-  const auto levels = make_levels(exemplar, count);
-  Canvas canvas(size_at(target.size, count - 1), target.tile);
+Canvas wei_levoy(const PixelParams& params, const Task& task, Random random,
+                 const Control& control) {
+  const int count = level_count(params.levels, task.exemplar.image.size(), task.size);
+  auto levels = make_levels(task.exemplar.image, count);
+  const std::vector<Aim> aims = direct(levels, task, params.radius);
+  Canvas canvas(aims.back().size, task.tile);
   for (std::size_t i = 0; i < canvas.source.size(); ++i)
-    canvas.source[i] = levels.back().point(static_cast<int>(
-        random.stream(i).below(static_cast<std::uint32_t>(levels.back().count()))));
+    canvas.source[i] = levels.back().nearest_usable(levels.back().point(static_cast<int>(
+        random.stream(i).below(static_cast<std::uint32_t>(levels.back().count())))));
 
   std::int64_t all = 0, done = 0;
-  for (int l = 0; l < count; ++l) all += size_at(target.size, l).height;
+  for (int l = 0; l < count; ++l) all += aims[static_cast<std::size_t>(l)].size.height;
   Canvas coarser = canvas;
   for (int l = count - 1; l >= 0; --l) {
     const auto i = static_cast<std::size_t>(l);
     std::optional<Parent> parent;
     if (l < count - 1) {
       coarser = std::move(canvas);
-      canvas = refined(coarser, levels[i + 1], levels[i], size_at(target.size, l));
+      canvas = refined(coarser, levels[i + 1], levels[i], aims[i].size);
       const int radius = (params.radius + 1) / 2;
       parent.emplace(Parent{levels[i + 1], coarser, Reference(levels[i + 1], radius), radius});
     }
-    Scan scan(params, levels[i], parent ? &*parent : nullptr, canvas,
+    Scan scan(params, levels[i], aims[i], parent ? &*parent : nullptr, canvas,
               random.stream((std::uint64_t{1} << 40) + i));
     for (int y = 0; y < canvas.size.height; ++y) {
       control.step(done++, all);

@@ -26,11 +26,23 @@ namespace gramloom {
 /// - patches are laid in the order column + 2 · row instead of row by row, so that several can be
 ///   laid at once (each still sees its left, upper left, upper and upper right neighbours);
 /// - patches shrink a little so that a whole number of them fills the texture.
+///
+/// Several exemplars and masks: patches are taken from where all of their pixels may be used, and
+/// are small enough that each exemplar has such places.
+/// Guide: the distance of the guides of the whole patch is added to its overlap error, each per
+/// pixel (Efros & Freeman 2001, section 3, without their passes of smaller and smaller patches);
+/// then pixels that miss their label are made again (see classic/quilt_labels.h). Weights of
+/// exemplars are a guide.
+/// Fill: only patches that touch a hole are laid, and known pixels under one are its overlap
+/// whatever their shape, less with their distance from the hole; the cut through patches laid
+/// before is a minimum cut of a graph (Kwatra et al. 2003, "Graphcut textures").
 struct QuiltingParams {
   static constexpr std::string_view kind = "quilting";
   static constexpr std::string_view summary =
       "overlapping patches cut along the path of least error (Efros & Freeman 2001)";
-  static constexpr Abilities abilities{Ability::exemplar, Ability::source};
+  static constexpr Abilities abilities{Ability::exemplar, Ability::exemplars, Ability::mask,
+                                       Ability::guide,    Ability::mix,       Ability::fill,
+                                       Ability::source};
 
   int patch_size = 0;
   double overlap = 0.45;
@@ -46,7 +58,8 @@ struct QuiltingParams {
         Field{"patch_size",
               &P::patch_size,
               "side of a patch; at most three quarters of the exemplar's side are used; 0: three "
-              "eighths of its shorter side",
+              "eighths of its shorter side, a quarter with a guide, and at most 64 where known "
+              "pixels are kept",
               "pixels",
               {0, 1024}},
         Field{"overlap",

@@ -28,6 +28,8 @@ Command add_report(CLI::App& program);
 Command add_maps(CLI::App& program);
 Command add_preview(CLI::App& program);
 Command add_tile(CLI::App& program);
+Command add_fill(CLI::App& program);
+Command add_arrange(CLI::App& program);
 Command add_export(CLI::App& program);
 Command add_benchmark(CLI::App& program);
 

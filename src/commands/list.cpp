@@ -12,6 +12,8 @@ ExitCode list_topic(const std::string& chosen) {
   const auto wanted = [&](std::string_view topic) { return chosen.empty() || chosen == topic; };
   std::string text;
   if (wanted("methods")) text += list_methods();
+  if (wanted("abilities")) text += list_abilities() + "\n";
+  if (wanted("direction")) text += list_direction();
   if (wanted("networks")) text += list_networks();
   if (wanted("patterns")) text += list_patterns();
   if (wanted("metrics")) text += list_metrics();
@@ -23,10 +25,12 @@ ExitCode list_topic(const std::string& chosen) {
 
 Command add_list(CLI::App& program) {
   const auto topic = std::make_shared<std::string>();
-  CLI::App* list =
-      program.add_subcommand("list", "List methods, networks, patterns, metrics and maps");
-  list->add_option("topic", *topic, "one of methods, networks, patterns, metrics, maps")
-      ->check(CLI::IsMember({"methods", "networks", "patterns", "metrics", "maps"}));
+  CLI::App* list = program.add_subcommand(
+      "list", "List methods, what they can be asked, and what else there is");
+  const std::vector<std::string> topics{"methods",  "abilities", "direction", "networks",
+                                        "patterns", "metrics",   "maps"};
+  list->add_option("topic", *topic, fmt::format("one of {}", fmt::join(topics, ", ")))
+      ->check(CLI::IsMember(topics));
   return {list, [topic] { return list_topic(*topic); }};
 }
 

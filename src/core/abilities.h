@@ -31,6 +31,9 @@ class Abilities {
  public:
   constexpr Abilities(std::initializer_list<Ability> abilities) {
     for (const Ability ability : abilities) bits_ |= bit(ability);
+    // Turned copies of an exemplar are several, with masks and a guide (signal/turned.h).
+    if (has(Ability::exemplars) && has(Ability::mask) && has(Ability::guide))
+      bits_ |= bit(Ability::turn);
   }
   constexpr bool has(Ability ability) const { return (bits_ & bit(ability)) != 0; }
 

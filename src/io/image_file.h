@@ -23,6 +23,7 @@ struct Encoding {
   std::string colour_space;                // OpenImageIO's name, as read; "" when the file has none
   std::vector<std::string> channel_names;  // "R", "G", "B", "A", "height", …; empty: by count
   bool premultiplied = false;              // colours are multiplied by the channel "A"
+  std::string icc_profile = {};            // bytes; what the colours mean; "" when there is none
 
   friend bool operator==(const Encoding&, const Encoding&) = default;
 };
@@ -74,7 +75,9 @@ ImageFile read_image(const std::filesystem::path& path);
 /// A; and from the fifth on "channel4", …. Names, colour space and metadata come back from
 /// read_image for PNG, JPEG, TIFF and EXR: they are one JSON text in the image description
 /// ({"gramloom": {"channels": […], "colour_space": "…", "metadata": {…}}}), the attribute that all
-/// of these have. TGA, BMP, PNM and HDR have none and lose them.
+/// of these have. An ICC profile comes back from PNG, JPEG and TIFF, and so do an artist and a
+/// copyright in the metadata, which are written as the formats' own too. TGA, BMP, PNM and HDR have
+/// none and lose them.
 ///
 /// Throws Error with the path for an unknown extension, channels that the format cannot hold (JPEG
 /// has no alpha), a JPEG with a side above 65500 or more than 60 kB of metadata, NaN or infinite

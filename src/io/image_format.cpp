@@ -116,6 +116,14 @@ OIIO::ImageSpec make_spec(const Format& format, Size size, int channels, const E
   if (!encoding.colour_space.empty()) spec.attribute("oiio:ColorSpace", encoding.colour_space);
   spec.attribute("ImageDescription", describe(format, {spec.channelnames, encoding.colour_space,
                                                        metadata, encoding.premultiplied}));
+  if (!encoding.icc_profile.empty())
+    spec.attribute(
+        "ICCProfile",
+        OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(encoding.icc_profile.size())),
+        encoding.icc_profile.data());
+  for (const char* name : {"Artist", "Copyright"})
+    if (const auto text = metadata.find(name); text != metadata.end())
+      spec.attribute(name, text->second);
   // An EXIF part in a TIFF needs to read what is already written, which memory here does not allow.
   spec.attribute("tiff:write_exif", 0);
   spec.attribute("DateTime", "");  // or OpenImageIO writes the time of day into TIFF and EXR

@@ -192,6 +192,12 @@ Metadata texts(const OIIO::ImageSpec& spec) {
   return metadata;
 }
 
+std::string icc_profile(const OIIO::ImageSpec& spec) {
+  const OIIO::ParamValue* profile = spec.find_attribute("ICCProfile");
+  if (!profile || profile->type().basetype != OIIO::TypeDesc::UINT8) return "";
+  return {static_cast<const char*>(profile->data()), profile->type().size()};
+}
+
 /// EXR files sort their channels by name; this brings them back into the order they were written
 /// in.
 Image reorder_channels(Image image, const std::vector<std::string>& from,
@@ -222,6 +228,7 @@ ImageFile read_open(OIIO::ImageInput& input) {
   check_alpha(input, file.image);
   file.encoding = {pixel_type(spec.format), spec.get_string_attribute("oiio:ColorSpace"),
                    spec.channelnames, is_premultiplied(input)};
+  file.encoding.icc_profile = icc_profile(spec);
   const auto record = from_description(spec.get_string_attribute("ImageDescription"));
   if (record && record->channel_names.size() == spec.channelnames.size()) {
     file.image = reorder_channels(std::move(file.image), spec.channelnames, record->channel_names);

@@ -5,10 +5,11 @@
 
 #include "io/text_file.h"
 #include "io/toml_reader.h"
-#include "jobs/exemplar_folder.h"
+#include "jobs/exemplar_entries.h"
 #include "jobs/method_reader.h"
 #include "jobs/names.h"
 #include "jobs/overrides.h"
+#include "jobs/read_direction.h"
 #include "surface/preview.h"
 
 namespace gramloom {
@@ -23,88 +24,6 @@ bool is_file_of_exemplar(const std::string& name) {
          (in_small_letters(name).starts_with("exemplar_") && fs::path(name).has_extension());
 }
 
-// An exemplar's name is a folder beside the files of the run.
-bool is_file_of_run(const std::string& name) {
-  return is_own_file(name, "run") || is_own_file(name, "scores") || is_own_file(name, "index") ||
-         is_own_file(name, "baseline");
-}
-
-[[noreturn]] void fail_taken(const std::string& name, const toml::source_region& region) {
-  fail(region, "the name '{}' is taken by a file of the run's own: choose another", name);
-}
-
-void check_new_name(const std::string& name, NamesInUse& names, const toml::source_region& region) {
-  check_name(name, longest_file_name, region);
-  names.add(name, region);
-}
-
-void check_exemplar_name(const std::string& name, NamesInUse& names,
-                         const toml::source_region& region) {
-  check_new_name(name, names, region);
-  if (is_file_of_run(name)) fail_taken(name, region);
-}
-
-void check_maps(const NamedFiles<MapFile>& maps, const toml::source_region& region) {
-  NamesInUse names;
-  for (const auto& [map, file] : maps) {
-    check_name(map, longest_map_name, region);
-    names.add(map, region);
-    if (file.image.empty()) fail(region, "the map '{}' has no file", map);
-  }
-}
-
-ExemplarEntry read_exemplar(const toml::table& table, NamesInUse& names) {
-  ExemplarEntry exemplar;
-  exemplar.name = required_text(table, "name");
-  check_exemplar_name(exemplar.name, names, key_region(table, "name"));
-  exemplar.place = place(table.source());
-  required_text(table, "image");
-  read_fields(exemplar, table);
-  check_maps(exemplar.maps, key_region(table, "maps"));
-  return exemplar;
-}
-
-// An exemplar for each picture in a folder, called like its file.
-std::vector<ExemplarEntry> read_exemplar_folder(const toml::table& table, NamesInUse& names) {
-  const toml::source_region& region = key_region(table, "folder");
-  for (const char* key : {"image", "maps"})
-    if (table.contains(key))
-      fail(key_region(table, key), "'{}' is of one picture: leave it or 'folder' out", key);
-  required_text(table, "name");  // for --set exemplar.NAME.folder=...
-  const fs::path folder = required_folder(table, "folder");
-  std::vector<fs::path> pictures;
-  try {
-    pictures = pictures_in(folder);
-  } catch (const Error& error) {
-    fail(region, "{}", error.what());
-  }
-  if (pictures.empty()) fail(region, "there is no picture in {}", folder.string());
-  ExemplarEntry exemplar;
-  exemplar.place = place(table.source());
-  read_fields_if(exemplar, table, [](std::string_view key) { return key == "max_side"; });
-  std::vector<ExemplarEntry> exemplars;
-  for (const fs::path& picture : pictures) {
-    exemplar.name = picture.stem().string();
-    exemplar.image = picture;
-    check_exemplar_name(exemplar.name, names, region);
-    exemplars.push_back(exemplar);
-  }
-  return exemplars;
-}
-
-std::vector<ExemplarEntry> read_exemplars(toml::table& config) {
-  std::vector<ExemplarEntry> exemplars;
-  NamesInUse names;
-  for (const toml::table* table : section(config, "exemplar")) {
-    check_keys(*table, key_names<ExemplarEntry>({"name", "folder"}));
-    if (table->contains("folder"))
-      std::ranges::move(read_exemplar_folder(*table, names), std::back_inserter(exemplars));
-    else
-      exemplars.push_back(read_exemplar(*table, names));
-  }
-  return exemplars;
-}
-
 std::vector<MethodEntry> read_methods(toml::table& config) {
   std::vector<MethodEntry> methods;
   NamesInUse names;
@@ -112,8 +31,9 @@ std::vector<MethodEntry> read_methods(toml::table& config) {
     MethodEntry method;
     method.method = read_method(*table);
     method.name = required_text(*table, "name");
-    check_new_name(method.name, names, key_region(*table, "name"));
-    if (is_file_of_exemplar(method.name)) fail_taken(method.name, key_region(*table, "name"));
+    check_name(method.name, longest_file_name, key_region(*table, "name"));
+    names.add(method.name, key_region(*table, "name"));
+    if (is_file_of_exemplar(method.name)) fail_taken_name(method.name, key_region(*table, "name"));
     method.place = place(table->source());
     methods.push_back(std::move(method));
   }
@@ -194,6 +114,9 @@ Config parse_config(const std::string& text, const fs::path& file,
   for (const auto& option : overrides) apply_override(table, option);
   std::vector<std::string> keys = config_keys();
   keys.insert(keys.end(), {"exemplar", "method", "baseline", "surface", "preview"});
+  for_each_direction(Direction(), [&]<class Entry>(const std::optional<Entry>&) {
+    keys.emplace_back(Entry::section);
+  });
   check_keys(table, keys);
 
   Config config;
@@ -203,6 +126,8 @@ Config parse_config(const std::string& text, const fs::path& file,
   read_fields(config, table);
   config.exemplars = read_exemplars(table);
   config.methods = read_methods(table);
+  config.direction = read_direction(table);
+  follow_direction(config, table);
   config.baseline = read_section<BaselineLimits>(table, "baseline");
   config.surface = read_section<SurfaceParams>(table, "surface");
   if (single_section(table, "preview")) {

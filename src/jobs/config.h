@@ -9,6 +9,7 @@
 #include "core/image.h"
 #include "io/field_values.h"
 #include "io/image_file.h"
+#include "jobs/direction.h"
 #include "jobs/map_file.h"
 #include "jobs/methods.h"
 #include "runs/baseline_limits.h"
@@ -24,25 +25,47 @@ template <>
 inline constexpr auto enum_names<FileFormat> =
     std::to_array<std::string_view>({"automatic", "png", "tif", "exr", "jpg"});
 
-/// A picture that textures are made from: an [[exemplar]] of the config. One with a `folder` stands
-/// for all pictures in it (exemplar_folder.h): as many entries, called like their files.
-struct ExemplarEntry {
-  std::string name;  // fit for a folder's name
+/// A picture of a material, with what belongs to it.
+struct ExemplarPicture {
   std::filesystem::path image;
   NamedFiles<MapFile>
       maps;  // further pictures of the same surface, pixel for pixel: "height", "roughness"
-  std::optional<int> max_side;
-  std::string place;  // where the config says so, for messages
+  FileOrName mask;
+  std::filesystem::path guide;
 
   static constexpr auto fields() {
-    using E = ExemplarEntry;
+    using E = ExemplarPicture;
     return std::tuple{
         Field{"image", &E::image, "the picture"},
         Field{"maps", &E::maps, "maps of the same surface, made together with the picture"},
-        Field{"max_side", &E::max_side, "scale the longer side down to this", "pixels", {1, 65536}},
+        Field{"mask", &E::mask,
+              "a picture of its size: what is black is never used; or alpha: what is transparent"},
+        Field{"guide", &E::guide, "a picture of its size: where it belongs, see [guide]"},
     };
   }
 };
+
+/// What textures are made from: an [[exemplar]] of the config. One with a `folder` stands for all
+/// pictures in it (exemplar_folder.h): as many entries, called like their files. One with `images`
+/// is several pictures of one material.
+struct ExemplarEntry : ExemplarPicture {
+  std::string name;                   // fit for a folder's name
+  std::vector<ExemplarPicture> more;  // of `images`, all after the first
+  std::optional<int> max_side;
+  bool is_filled = false;  // the picture that [fill] fills, without what is to be made
+  std::string place;       // where the config says so, for messages
+
+  static constexpr auto fields() {
+    using E = ExemplarEntry;
+    return std::tuple_cat(
+        ExemplarPicture::fields(),
+        std::tuple{Field{
+            "max_side", &E::max_side, "scale the longer side down to this", "pixels", {1, 65536}}});
+  }
+};
+
+/// All pictures of an exemplar.
+std::vector<ExemplarPicture> pictures_of(const ExemplarEntry& exemplar);
 
 /// A method with its parameters: a [[method]] of the config.
 struct MethodEntry {
@@ -64,8 +87,10 @@ struct Config {
   FileFormat format = FileFormat::automatic;
   std::optional<PixelType> pixel_type;  // none: the exemplar's
   bool scores = true;
+  bool coordinates = false;
   std::vector<ExemplarEntry> exemplars;
   std::vector<MethodEntry> methods;
+  Direction direction;                   // its [guide], [mix], [turn] and [fill]
   BaselineLimits baseline;               // its [baseline]
   SurfaceParams surface;                 // its [surface]: maps of every result that has a height
   std::optional<PreviewParams> preview;  // its [preview]: a picture of every result on a shape
@@ -79,6 +104,8 @@ struct Config {
         Field{"format", &C::format, "file type of the results"},
         Field{"pixel_type", &C::pixel_type, "how results store a value; the exemplar's if not set"},
         Field{"scores", &C::scores, "score each texture against its exemplar"},
+        Field{"coordinates", &C::coordinates,
+              "write where each pixel was copied from, for methods that copy"},
     };
   }
 };

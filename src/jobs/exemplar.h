@@ -5,7 +5,6 @@
 
 #include "core/request.h"
 #include "io/image_file.h"
-#include "jobs/config.h"
 
 namespace gramloom {
 
@@ -20,20 +19,9 @@ struct ExemplarFile {
   GreenAxis green = GreenAxis::up;  // of normals
 };
 
-/// An exemplar as methods see it, and its files: the picture, then its maps by name. Methods weigh
-/// channels by their values: a map in floats beyond 0 to 1, such as metres, is brought there, or it
-/// would outweigh the colours.
-struct LoadedExemplar {
-  Exemplar exemplar;
-  std::vector<ExemplarFile> files;
-  std::vector<std::string> notes = {};  // "h.tif: …": where values are not quite those of the files
-};
-
-/// Reads the picture and its maps and scales them to max_side, after which normals are of unit
-/// length again. Normals of [-1, 1], as float files may have them, come as (1 + component) / 2.
-/// Throws ConfigError when a map has another size than the picture, or too few channels for its
-/// kind; Error for a file that cannot be read.
-LoadedExemplar load_exemplar(const ExemplarEntry& entry);
+/// Scales an exemplar, with its mask and its guide, to that longer side, after which normals are of
+/// unit length again. What is partly masked is masked.
+void shrink(Exemplar& exemplar, int max_side);
 
 /// The layers of the joined image, a file's or two: alpha by itself where the last channel of a
 /// picture, of colours or of normals is called "A", or is the fourth.

@@ -1,5 +1,6 @@
 #include "jobs/input_files.h"
 
+#include "jobs/inputs.h"
 #include "jobs/job_preview.h"
 #include "neural/network/network_description.h"
 #include "runs/job_files.h"
@@ -37,10 +38,11 @@ void add_files_of(const Method& method, std::vector<InputFile>& files) {
 
 std::vector<InputFile> input_files(const Config& config) {
   std::vector<InputFile> files{{config.file, "is the config"}};
-  for (const ExemplarEntry& exemplar : config.exemplars) {
-    files.push_back({exemplar.image, "the config reads"});
-    for (const auto& [map, file] : exemplar.maps) files.push_back({file.image, "the config reads"});
-  }
+  for (const ExemplarEntry& exemplar : config.exemplars)
+    for (const ExemplarPicture& picture : pictures_of(exemplar))
+      for (const auto& [key, file] : files_of(picture)) files.push_back({file, "the config reads"});
+  for (const auto& [key, file] : files_of(config.direction))
+    files.push_back({file, "the config reads"});
   for (const MethodEntry& method : config.methods) add_files_of(method.method, files);
   for (const auto& [key, file] : preview_files(config)) files.push_back({file, "the config reads"});
   return files;

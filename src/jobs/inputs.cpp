@@ -34,9 +34,47 @@ std::string FileHashes::of(const fs::path& path) {
   }
 }
 
+Named<fs::path> files_of(const ExemplarPicture& picture) {
+  Named<fs::path> files{{"image", picture.image}};
+  for (const auto& [name, map] : picture.maps) files.emplace_back("maps." + name, map.image);
+  if (!picture.mask.empty() && !picture.mask.is_name()) files.emplace_back("mask", picture.mask);
+  if (!picture.guide.empty()) files.emplace_back("guide", picture.guide);
+  return files;
+}
+
+Named<fs::path> files_of(const Direction& direction) {
+  Named<fs::path> files;
+  for_each_direction(direction, [&]<class Entry>(const std::optional<Entry>& entry) {
+    if (!entry) return;
+    const auto add = [&](std::string_view key, const fs::path& file) {
+      if (!file.empty()) files.emplace_back(fmt::format("{}.{}", Entry::section, key), file);
+    };
+    for_each_field<Entry>([&](const auto& field) {
+      using T = typename std::decay_t<decltype(field)>::value_type;
+      const auto& value = *entry.*field.member;
+      if constexpr (std::is_same_v<T, fs::path>) add(field.name, value);
+      if constexpr (std::is_same_v<T, FileOrName>)
+        if (!value.is_name()) add(field.name, value);
+      if constexpr (std::is_same_v<T, std::vector<fs::path>>)
+        for (const fs::path& file : value) add(field.name, file);
+      if constexpr (is_named_files<T>)
+        for (const auto& [name, file] : value)
+          add(fmt::format("{}.{}", field.name, name), file.image);
+    });
+  });
+  return files;
+}
+
 std::vector<std::string> exemplar_hashes(const ExemplarEntry& exemplar, FileHashes& hashes) {
-  std::vector<std::string> list{hashes.of(exemplar.image)};
-  for (const auto& [name, file] : exemplar.maps) list.push_back(hashes.of(file.image));
+  std::vector<std::string> list;
+  for (const ExemplarPicture& picture : pictures_of(exemplar))
+    for (const auto& [key, file] : files_of(picture)) list.push_back(hashes.of(file));
+  return list;
+}
+
+Named<std::string> direction_hashes(const Direction& direction, FileHashes& hashes) {
+  Named<std::string> list;
+  for (const auto& [key, file] : files_of(direction)) list.emplace_back(key, hashes.of(file));
   return list;
 }
 

@@ -30,8 +30,14 @@ class FileHashes {
   std::map<std::filesystem::path, Known> known_;
 };
 
-/// The hashes of an exemplar's picture and of its maps by name.
+/// The files of one picture of an exemplar: "image", its maps as "maps.NAME", "mask" and "guide".
+Named<std::filesystem::path> files_of(const ExemplarPicture& picture);
+/// The files of [guide], [mix], [turn] and [fill], by section and key: "fill.image".
+Named<std::filesystem::path> files_of(const Direction& direction);
+
+/// The hashes of the files of all of an exemplar's pictures, in their order.
 std::vector<std::string> exemplar_hashes(const ExemplarEntry& exemplar, FileHashes& hashes);
+Named<std::string> direction_hashes(const Direction& direction, FileHashes& hashes);
 
 /// The hashes of the files that a method reads: those that its parameters name, and the "network"
 /// that is meant by a name.

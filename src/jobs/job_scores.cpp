@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "io/text_file.h"
 #include "jobs/interruption.h"
 #include "jobs/memory.h"
+#include "jobs/usable_part.h"
+#include "metrics/copying.h"
 #include "metrics/map_scores.h"
+#include "metrics/seams.h"
 #include "runs/job_files.h"
 
 namespace gramloom {
@@ -33,7 +37,7 @@ Image read_map(const std::filesystem::path& path, const ExemplarFile& file) {
   return std::move(map.image);
 }
 
-// Those of the exemplar's maps that the texture has.
+// Those of the exemplar's maps that the texture has; of several pictures, the first one's.
 std::map<std::string, JobRecord::Values> map_values(Run& run, const Job& job, const JobFiles& files,
                                                     const JobRecord& record) {
   std::map<std::string, JobRecord::Values> all;
@@ -52,17 +56,65 @@ std::map<std::string, JobRecord::Values> map_values(Run& run, const Job& job, co
   return all;
 }
 
+// How much of the material each exemplar is: by its weight, or by how much of it may be used.
+std::vector<double> shares_of(const Request& request) {
+  const std::size_t count = request.exemplars.size();
+  std::vector<double> shares(count);
+  const std::vector<float>& weights = request.target.weights.pixels;
+  for (std::size_t p = 0; p < weights.size(); ++p)
+    shares[p % count] += static_cast<double>(weights[p]);
+  if (weights.empty())
+    for (std::size_t i = 0; i < count; ++i) {
+      const Rectangle part = usable_part(request.exemplars[i]);
+      shares[i] = 1.0 * part.width * part.height;
+    }
+  const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (double& share : shares) share /= sum;
+  return shares;
+}
+
+// Against each of the exemplar's pictures, and then the mean: by their shares, or of copies the
+// sum, since each is of a copy from one of them.
+Scores scores_of(Run& run, const PlannedJob& planned, const Image& texture) {
+  std::vector<ExemplarStatistics>& exemplars = statistics_of(run, planned.job);
+  const Request& request = run.request;
+  const bool whole = exemplars.size() == 1 && request.exemplars.front().mask.empty();
+  const SourceMap& source = source_of(run, planned);
+  if (whole) return score(exemplars.front(), texture, run.config.tile, shown_work(run), source);
+  const std::vector<double> shares = shares_of(request);
+  Scores all;
+  for (std::size_t i = 0; i < exemplars.size(); ++i) {
+    Scores one = score(exemplars[i], texture, run.config.tile, shown_work(run));
+    if (i == 0) {
+      all = one;
+      for (auto& [name, value] : all.values) value = 0;
+    }
+    for (std::size_t v = 0; v < one.values.size(); ++v) {
+      const bool part = one.values[v].first == "copied_share";
+      all.values[v].second += (part ? 1 : shares[i]) * one.values[v].second;
+    }
+  }
+  if (source.empty()) return all;
+  std::vector<Size> sizes;
+  for (const Exemplar& exemplar : request.exemplars) sizes.push_back(exemplar.image.size());
+  all.copy_map = source_colours(source, sizes);
+  return all;
+}
+
 // Puts the scores into the record and their picture on disk; throws what goes wrong.
 void score_texture(Run& run, const PlannedJob& planned, const JobFiles& files, JobRecord& record) {
   const std::string refusal = scoring_refusal(planned, available_memory());
   if (!refusal.empty()) throw Error("{}", refusal);
   // The texture as others see it: with its file's rounding.
   const Image texture = read_image(files.folder / record.files.front()).image;
-  ExemplarStatistics& exemplar = statistics_of(run, planned.job);
+  request_of(run, planned.job);  // reads the exemplar again where its files have changed
   if (record.settings.value("/exemplar/hash"_json_pointer, "") != run.loaded_hashes.at(0))
     throw Error("the exemplar has changed since the texture was made");
-  const Scores scores =
-      score(exemplar, texture, run.config.tile, shown_work(run), source_of(run, planned));
+  if (!run.request.target.mask.empty()) {
+    record.metrics["join"] = join_visibility(texture, run.request.target.mask);
+    return;
+  }
+  const Scores scores = scores_of(run, planned, texture);
   write_image(files.copy_map, scores.copy_map, {});
   record.copy_map = files.copy_map.lexically_relative(run.options.output).generic_string();
   record.metrics = values_of(scores.values);

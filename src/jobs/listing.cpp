@@ -83,6 +83,34 @@ std::string list_methods() {
   return text;
 }
 
+std::string list_abilities() {
+  std::string text = "| method |";
+  std::string line = "|---|";
+  for (const std::string_view ability : enum_names<Ability>) {
+    if (ability == to_word(Ability::exemplar)) continue;
+    text += fmt::format(" {} |", ability);
+    line += "---|";
+  }
+  text += "\n" + line + "\n";
+  for_each_alternative<Method>([&]<class Params>(std::type_identity<Params>) {
+    if (!Params::abilities.has(Ability::exemplar)) return;
+    text += fmt::format("| `{}` |", Params::kind);
+    for (std::size_t i = 1; i < enum_names<Ability>.size(); ++i)
+      text += Params::abilities.has(static_cast<Ability>(i)) ? " yes |" : "  |";
+    text += "\n";
+  });
+  return text;
+}
+
+std::string list_direction() {
+  std::string text;
+  for_each_direction(Direction(), [&]<class Entry>(const std::optional<Entry>&) {
+    text += fmt::format("[{}]\n", Entry::section);
+    text += text_table(parameter_rows<Entry>(), "  ") + "\n";
+  });
+  return text;
+}
+
 std::string list_patterns() {
   std::string text;
   for_each_alternative<Method>([&]<class Params>(std::type_identity<Params>) {

@@ -1,7 +1,10 @@
 #include "jobs/methods.h"
 
+#include <algorithm>
+
 #include "core/variants.h"
 #include "jobs/unit_normals.h"
+#include "signal/turned.h"
 
 namespace gramloom {
 
@@ -14,6 +17,15 @@ void refuse_lacks(const Method& method, const RequestSize& request) {
   const auto others = methods_with(lack->ability);
   if (others.empty()) throw Error("{}; no method can yet", lack->refusal);
   throw Error("{}; methods that can: {}", lack->refusal, fmt::join(others, ", "));
+}
+
+// Bit for bit, whatever a method computes with.
+void keep_known(Image& texture, const Target& target) {
+  if (target.mask.empty()) return;
+  for (int y = 0; y < texture.height; ++y)
+    for (int x = 0; x < texture.width; ++x)
+      if (*target.mask.at(x, y) <= 0.5f)
+        std::copy_n(target.known.at(x, y), texture.channels, texture.at(x, y));
 }
 
 }  // namespace
@@ -38,15 +50,21 @@ std::vector<std::string_view> methods_with(Ability ability) {
 
 Texture run_method(const Method& method, const Request& request, const Control& control) {
   refuse_lacks(method, size_of(request));
+  std::optional<Turned> turned;
+  if (!request.target.turn.empty()) turned.emplace(request);
+  const Request& asked = turned ? turned->request() : request;
   Texture texture =
-      std::visit([&](const auto& params) { return synthesise(params, request, control); }, method);
-  keep_normals_unit(texture, request.exemplars);
+      std::visit([&](const auto& params) { return synthesise(params, asked, control); }, method);
+  keep_normals_unit(texture, asked.exemplars);
+  if (turned) turned->name_sources(texture.source);
+  keep_known(texture.image, request.target);
   return texture;
 }
 
 Cost estimate_method(const Method& method, const RequestSize& request) {
   refuse_lacks(method, request);
-  return std::visit([&](const auto& params) { return estimate(params, request); }, method);
+  const RequestSize asked = request.turn ? size_of_turned(request) : request;
+  return std::visit([&](const auto& params) { return estimate(params, asked); }, method);
 }
 
 }  // namespace gramloom

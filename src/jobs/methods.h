@@ -58,7 +58,7 @@ std::vector<std::string_view> methods_with(Ability ability);
 
 /// What the method makes of the request, and what it would need for that. Both throw Error for what
 /// the method cannot do, with the methods that can. Normals of the texture are of unit length
-/// (jobs/unit_normals.h).
+/// (jobs/unit_normals.h), and known pixels are as they were, bit for bit.
 Texture run_method(const Method& method, const Request& request, const Control& control);
 Cost estimate_method(const Method& method, const RequestSize& request);
 

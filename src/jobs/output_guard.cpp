@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "io/image_file.h"
+#include "jobs/keep_exemplar.h"
 #include "jobs/protected_files.h"
 #include "runs/job_files.h"
 #include "runs/own_files.h"
@@ -67,9 +68,7 @@ class Guard {
     const fs::path folder = output_ / exemplar.name;
     const bool ours =
         (before_.is_ours && before_.folders.contains(exemplar.name)) || holds_record(folder);
-    std::vector<std::string> stems{"exemplar"};
-    for (const auto& [map, file] : exemplar.maps) stems.push_back("exemplar_" + map);
-    for (const std::string& stem : stems)
+    for (const std::string& stem : kept_files(exemplar))
       for (const std::string extension : {".png", ".tif", ".exr"})
         check(folder / (stem + extension), [&](const fs::path&) { return ours; });
   }
@@ -121,6 +120,7 @@ class Guard {
   // those made of its height.
   std::function<bool(const std::string&)> map_names(const Job& job) const {
     std::vector<std::string> made = maps_asked(config_.surface);
+    if (config_.coordinates) made.emplace_back("coordinates");
     if (config_.preview) made.emplace_back("preview");
     if (job.exemplar)
       return [&maps = config_.exemplars[*job.exemplar].maps, made](const std::string& name) {

@@ -65,6 +65,16 @@ bool assign_in_table(toml::table& config, std::string_view name, const std::stri
   return true;
 }
 
+// "fill.key": into one of the tables that direct a texture. False: not of this form.
+bool assign_in_direction(toml::table& config, const std::string& path, std::string_view value,
+                         const std::string& option) {
+  bool assigned = false;
+  for_each_direction(Direction(), [&]<class Entry>(const std::optional<Entry>&) {
+    assigned = assigned || assign_in_table(config, Entry::section, path, value, option);
+  });
+  return assigned;
+}
+
 // Into every method that has the key.
 void assign_in_methods(toml::table& config, const std::string& key, std::string_view value,
                        const std::string& option) {
@@ -117,7 +127,8 @@ void apply_override(toml::table& config, const std::string& option) {
            !assign_in_section(config, "exemplar", option) &&
            !assign_in_table(config, "baseline", key, value, option) &&
            !assign_in_table(config, "surface", key, value, option) &&
-           !assign_in_table(config, "preview", key, value, option))
+           !assign_in_table(config, "preview", key, value, option) &&
+           !assign_in_direction(config, key, value, option))
     assign_in_methods(config, key, value, option);
 }
 

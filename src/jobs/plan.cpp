@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/abilities.h"
+#include "jobs/loaded_request.h"
 #include "jobs/pattern.h"
 #include "jobs/results.h"
 #include "metrics/scores.h"
@@ -20,23 +21,24 @@ const ExemplarFacts& facts_of(const Plan& plan, const Job& job) {
 }
 
 // Throws Error for what no method takes.
-void check_values(const ExemplarEntry& exemplar, const Image& joined) {
+void check_values(const ExemplarEntry& entry, const LoadedRequest& loaded) {
   try {
-    check_picture(joined);
+    for (const Exemplar& exemplar : loaded.exemplars) check_picture(exemplar.image);
   } catch (const Error& error) {
-    throw Error("{}: {}", exemplar.image.string(), error.what());
+    throw Error("{}: {}", entry.image.string(), error.what());
   }
 }
 
 // Throws ConfigError when maps are to be made of a height that is none.
 void check_height(const Config& config, const ExemplarEntry& exemplar,
-                  const LoadedExemplar& loaded) {
+                  const LoadedRequest& loaded) {
   if (maps_asked(config.surface).empty()) return;
   const std::string height = height_among(exemplar.maps, config.surface);
-  for (const Layer& layer : loaded.exemplar.layers) {
+  const Exemplar& first = loaded.exemplars.front();
+  for (const Layer& layer : first.layers) {
     if (layer.name.empty() || layer.name != height) continue;
     try {
-      one_channel(extract_channels(loaded.exemplar.image, layer.first, layer.count));
+      one_channel(extract_channels(first.image, layer.first, layer.count));
     } catch (const Error& error) {
       throw ConfigError("{}: {}: {}", exemplar.place, exemplar.maps.at(height).image.string(),
                         error.what());
@@ -44,14 +46,15 @@ void check_height(const Config& config, const ExemplarEntry& exemplar,
   }
 }
 
-ExemplarFacts look_at(const Config& config, const ExemplarEntry& exemplar) {
+ExemplarFacts look_at(const Config& config, std::size_t number) {
   ExemplarFacts facts;
+  const ExemplarEntry& exemplar = config.exemplars[number];
   try {
-    LoadedExemplar loaded = load_exemplar(exemplar);
-    facts.size = loaded.exemplar.image.size();
+    LoadedRequest loaded = load_request(config, number);
     facts.files = std::move(loaded.files);
-    check_values(exemplar, loaded.exemplar.image);
+    check_values(exemplar, loaded);
     check_height(config, exemplar, loaded);
+    facts.request = size_of({std::move(loaded.exemplars), std::move(loaded.target)});
   } catch (const ConfigError&) {
     throw;  // for the user to mend first
   } catch (const Error& error) {
@@ -69,9 +72,16 @@ void check_formats(const Config& config, const ExemplarFacts& facts) {
 
 // What a job asks for at this size of the texture.
 RequestSize request_size(const Config& config, const Plan& plan, const Job& job, Size size) {
-  RequestSize request{.size = size, .tile = config.tile};
-  const ExemplarFacts& facts = facts_of(plan, job);
-  if (job.exemplar) request.exemplars.push_back({facts.size, channels_of(facts.files)});
+  RequestSize request = facts_of(plan, job).request;
+  request.size = size;
+  request.tile = config.tile;
+  if (job.exemplar) return request;
+  // A method of formulas is asked as much, and says what it cannot.
+  const Direction& direction = config.direction;
+  request.known = direction.fill.has_value();
+  request.guide = direction.guide.has_value();
+  request.weights = direction.mix.has_value();
+  request.turn = direction.turn.has_value();
   return request;
 }
 
@@ -87,6 +97,17 @@ Cost cost_of_finishing(const Config& config, const Job& job) {
   return {cost.bytes + preview.bytes, cost.seconds + preview.seconds};
 }
 
+// Of a filled picture only the joins are scored.
+Cost cost_of_scoring(const Config& config, const ExemplarFacts& facts) {
+  Cost cost;
+  if (config.direction.fill) return {1e7, 0.1};
+  for (const ExemplarSize& exemplar : facts.request.exemplars) {
+    const Cost one = estimate_scores(exemplar.size, facts.files.front().channels, config.size);
+    cost = {std::max(cost.bytes, one.bytes), cost.seconds + one.seconds};
+  }
+  return cost;
+}
+
 // The cost of a job, or why the method cannot do it. A ConfigError is for the user to mend first.
 void estimate_job(const Config& config, const Plan& plan, PlannedJob& planned) {
   const MethodEntry& method = config.methods[planned.job.method];
@@ -98,8 +119,7 @@ void estimate_job(const Config& config, const Plan& plan, PlannedJob& planned) {
     planned.cost =
         estimate_method(method.method, request_size(config, plan, planned.job, config.size));
     planned.finishing = cost_of_finishing(config, planned.job);
-    if (config.scores && planned.job.exemplar)
-      planned.scoring = estimate_scores(facts.size, facts.files.front().channels, config.size);
+    if (config.scores && planned.job.exemplar) planned.scoring = cost_of_scoring(config, facts);
   } catch (const ConfigError& error) {
     throw ConfigError("{}: method '{}': {}", method.place, method.name, error.what());
   } catch (const Error& error) {
@@ -164,7 +184,8 @@ bool job_matches(const std::string& pattern, const std::string& job) {
 
 Plan make_plan(const Config& config, const std::string& only) {
   Plan plan;
-  for (const auto& exemplar : config.exemplars) plan.exemplars.push_back(look_at(config, exemplar));
+  for (std::size_t i = 0; i < config.exemplars.size(); ++i)
+    plan.exemplars.push_back(look_at(config, i));
   for (const Job& job : all_jobs(config)) {
     PlannedJob planned{job, job_name(config, job), {}, {}, {}, {}, true};
     planned.selected = job_matches(only, planned.name);

@@ -32,7 +32,7 @@ bool job_matches(const std::string& pattern, const std::string& job);
 
 /// What is known of an exemplar before its jobs run.
 struct ExemplarFacts {
-  Size size;  // after max_side
+  RequestSize request;  // of its jobs; exemplars after max_side
   std::vector<ExemplarFile> files;
   std::string error;  // why it cannot be read, or taken by a method; its jobs fail with this
 };

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "jobs/machine.h"
-#include "runs/job_files.h"
 
 namespace gramloom {
 
@@ -110,7 +109,7 @@ std::map<std::string, GreenAxis> normals_of(const OutputFormats& formats) {
 
 WrittenTexture write_texture(const fs::path& folder, const std::string& name,
                              const Texture& texture, const OutputFormats& formats,
-                             const Json& settings) {
+                             const Json& settings, const Metadata& picture) {
   Json made_by{{"gramloom", version()}};
   made_by.update(settings);
   const std::string settings_text = to_text(made_by, -1, true);
@@ -119,6 +118,7 @@ WrittenTexture write_texture(const fs::path& folder, const std::string& name,
   const auto write = [&](const std::string& stem, const Image& image, const OutputFormat& format) {
     const std::string file = stem + format.extension;
     Metadata metadata = format.green ? green_metadata(*format.green) : Metadata();
+    metadata.insert(picture.begin(), picture.end());
     metadata["gramloom:settings"] = settings_text;
     auto notes = write_image(folder / file, image, format.encoding, metadata);
     written.files.push_back(file);
@@ -133,21 +133,6 @@ WrittenTexture write_texture(const fs::path& folder, const std::string& name,
     write(fmt::format("{}_{}", name, map_name), scaled(map, format), format);
   }
   return written;
-}
-
-void write_exemplar(const fs::path& folder, const Exemplar& exemplar,
-                    const std::vector<ExemplarFile>& files) {
-  const Texture parts = split_layers({exemplar.image}, files);
-  for (const ExemplarFile& file : files) {
-    const bool picture = file.map.empty();
-    const std::string name = picture ? "exemplar" : "exemplar_" + file.map;
-    const OutputFormat format = output_format(Config(), file.encoding, file.channels);
-    write_image(folder / (name + format.extension), picture ? parts.image : parts.maps.at(file.map),
-                format.encoding,
-                file.kind == MapKind::normal ? green_metadata(file.green) : Metadata());
-    for (const std::string extension : {".png", ".exr", ".tif"})
-      if (extension != format.extension) remove_file(folder / (name + extension));
-  }
 }
 
 }  // namespace gramloom

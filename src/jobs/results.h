@@ -47,15 +47,10 @@ struct WrittenTexture {
 };
 
 /// Writes a texture and its maps as `name` + extension and `name`_<map> + extension in `folder`.
-/// Their metadata is the settings, where normals' green points, and nothing that differs from run
-/// to run.
+/// Their metadata is the settings, where normals' green points, what the `picture` that was filled
+/// had, and nothing that differs from run to run.
 WrittenTexture write_texture(const std::filesystem::path& folder, const std::string& name,
                              const Texture& texture, const OutputFormats& formats,
-                             const Json& settings);
-
-/// Writes the exemplar of results and its maps as "exemplar" + extension and "exemplar_"<map> +
-/// extension in `folder`. Throws Error.
-void write_exemplar(const std::filesystem::path& folder, const Exemplar& exemplar,
-                    const std::vector<ExemplarFile>& files);
+                             const Json& settings, const Metadata& picture = {});
 
 }  // namespace gramloom

@@ -2,14 +2,17 @@
 
 #include "core/hash.h"
 #include "io/text_file.h"
+#include "jobs/arrangement.h"
 #include "jobs/interruption.h"
 #include "jobs/job_preview.h"
+#include "jobs/loaded_request.h"
 #include "jobs/machine.h"
 #include "jobs/memory.h"
 #include "jobs/results.h"
 #include "jobs/settings.h"
 #include "jobs/surface_maps.h"
 #include "jobs/trace_log.h"
+#include "jobs/usable_part.h"
 #include "runs/job_files.h"
 
 namespace gramloom {
@@ -105,9 +108,12 @@ void write_results(Run& run, const Work& work, Texture joined, const TraceLog& t
   add_surface_maps(texture, run.config, record.notes);
   const OutputFormats formats = output_formats(run.config, run.files, texture);
   const WrittenTexture written =
-      write_texture(files.folder, files.name, texture, formats, record.settings);
+      write_texture(files.folder, files.name, texture, formats, record.settings, run.metadata);
   record.files = written.files;
   record.normals = normals_of(formats);
+  if (run.config.coordinates && !run.source.empty())
+    record.files.push_back(
+        write_arrangement(files.folder, files.name, arrangement_of(run.source, work.request)));
   const std::string preview = write_preview(
       files.folder, files.name, run.config, {work.method, work.request.random, texture, formats},
       run.hashes, run.environment, shown_work(run), record.notes);
@@ -128,7 +134,7 @@ Work begin_work(Run& run, const PlannedJob& planned, const JobFiles& files, JobR
   const Job& job = planned.job;
   const Method& method = run.config.methods[job.method].method;
   const Request& request = request_of(run, job);
-  InputHashes inputs{run.loaded_hashes, method_hashes(method, run.hashes),
+  InputHashes inputs{run.loaded_hashes, run.direction_hashes, method_hashes(method, run.hashes),
                      preview_hashes(run.config, run.hashes)};
   record.settings = job_settings(run.config, job, inputs);
   record.network = network_of(method);
@@ -164,37 +170,40 @@ void do_job(Run& run, const PlannedJob& planned, const JobFiles& files, bool kee
 }  // namespace
 
 const Request& request_of(Run& run, const Job& job) {
-  run.request.target = {run.config.size, run.config.tile};
   // The seed alone: a texture does not change when its exemplar or method is given another name.
   run.request.random = Random(static_cast<std::uint64_t>(job.seed));
   std::vector<std::string> hashes;
   if (job.exemplar) hashes = exemplar_hashes(run.config.exemplars[*job.exemplar], run.hashes);
-  if (run.loaded == job.exemplar && run.loaded_hashes == hashes) return run.request;
+  auto direction = direction_hashes(run.config.direction, run.hashes);
+  if (run.loaded == job.exemplar && run.loaded_hashes == hashes &&
+      run.direction_hashes == direction && run.request.target.size == run.config.size)
+    return run.request;
   const NothingToKeep scope;
   run.loaded.reset();
   run.request.exemplars.clear();
-  run.files.clear();
-  run.notes.clear();
-  run.statistics.reset();
-  if (job.exemplar) {
-    const ExemplarEntry& entry = run.config.exemplars[*job.exemplar];
-    LoadedExemplar loaded = load_exemplar(entry);
-    if (exemplar_hashes(entry, run.hashes) != hashes)
-      throw Error("{}: the exemplar or one of its maps changed while it was read",
-                  entry.image.string());
-    run.request.exemplars.push_back(std::move(loaded.exemplar));
-    run.files = std::move(loaded.files);
-    run.notes = std::move(loaded.notes);
-  }
+  run.statistics.clear();
+  LoadedRequest loaded = load_request(run.config, job.exemplar);
+  if (job.exemplar && (exemplar_hashes(run.config.exemplars[*job.exemplar], run.hashes) != hashes ||
+                       direction_hashes(run.config.direction, run.hashes) != direction))
+    throw Error("{}: the exemplar or one of its maps changed while it was read",
+                run.config.exemplars[*job.exemplar].image.string());
+  run.request.exemplars = std::move(loaded.exemplars);
+  run.request.target = std::move(loaded.target);
+  run.files = std::move(loaded.files);
+  run.notes = std::move(loaded.notes);
+  run.metadata = std::move(loaded.metadata);
   run.loaded = job.exemplar;
   run.loaded_hashes = std::move(hashes);
+  run.direction_hashes = std::move(direction);
   return run.request;
 }
 
-ExemplarStatistics& statistics_of(Run& run, const Job& job) {
-  const Exemplar& exemplar = request_of(run, job).exemplars.front();
-  if (!run.statistics) run.statistics.emplace(picture_of(exemplar));
-  return *run.statistics;
+std::vector<ExemplarStatistics>& statistics_of(Run& run, const Job& job) {
+  const Request& request = request_of(run, job);
+  if (run.statistics.empty())
+    for (const Exemplar& exemplar : request.exemplars)
+      run.statistics.emplace_back(cut_out(picture_of(exemplar), usable_part(exemplar)));
+  return run.statistics;
 }
 
 std::string reason_to_run(Run& run, const PlannedJob& planned) {

@@ -26,10 +26,12 @@ struct Run {
   FileHashes hashes = {};                  // of the files that the jobs read
   std::optional<std::size_t> loaded = {};  // which exemplar
   std::vector<std::string> loaded_hashes = {};  // of its files when they were read
+  Named<std::string> direction_hashes = {};     // of those of [fill] and its like
   Request request = {};
   std::vector<ExemplarFile> files = {};  // of that exemplar
   std::vector<std::string> notes = {};   // likewise: where its values are not those of the files
-  std::optional<ExemplarStatistics> statistics = {};  // of its picture, for the scores
+  Metadata metadata = {};                // of the picture that is filled
+  std::vector<ExemplarStatistics> statistics = {};  // of its pictures, for the scores
 
   PreviewEnvironment environment = {};  // of the previews
 
@@ -43,8 +45,9 @@ struct Run {
 /// Error for an exemplar that cannot be read.
 const Request& request_of(Run& run, const Job& job);
 
-/// The exemplar's side of the scores, kept as long as the exemplar. Throws Error.
-ExemplarStatistics& statistics_of(Run& run, const Job& job);
+/// The exemplar's side of the scores, of each of its pictures, kept as long as the exemplar. Of a
+/// picture with a mask, it is that of the largest rectangle that may be used. Throws Error.
+std::vector<ExemplarStatistics>& statistics_of(Run& run, const Job& job);
 
 /// Why --resume has to do a job (again); "" when it is finished and what it depended on is as it
 /// was: its settings with the content of all files, and the version of gramloom. Other threads,

@@ -6,6 +6,7 @@
 #include "jobs/folder_lock.h"
 #include "jobs/interruption.h"
 #include "jobs/job_scores.h"
+#include "jobs/keep_exemplar.h"
 #include "jobs/output_guard.h"
 #include "jobs/results.h"
 #include "jobs/run_log.h"
@@ -127,9 +128,9 @@ void add_scores(Run& run, const PlannedJob& planned, JobRecord& record, RunLog& 
 void keep_exemplar(Run& run, const Job& job, std::optional<std::size_t>& kept) {
   if (job.exemplar == kept || !job.exemplar) return;
   if (!run.plan.exemplars[*job.exemplar].error.empty()) return;  // its jobs say so
-  const Exemplar* exemplar = nullptr;
+  const Request* request = nullptr;
   try {
-    exemplar = &request_of(run, job).exemplars.front();
+    request = &request_of(run, job);
   } catch (const std::exception&) {  // the job, which needs it too, says so
     return;
   }
@@ -138,7 +139,8 @@ void keep_exemplar(Run& run, const Job& job, std::optional<std::size_t>& kept) {
     const fs::path folder = run.options.output / exemplar_name(run.config, job);
     create_folder(folder);
     remove_stale_temporaries(folder, "exemplar");
-    write_exemplar(folder, *exemplar, run.files);
+    remove_stale_temporaries(folder, "target");
+    write_exemplar(folder, *request, run.files);
   });
 }
 

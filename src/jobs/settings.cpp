@@ -19,19 +19,57 @@ Json fields_to_json(const Struct& value, const fs::path& folder) {
   return json;
 }
 
-// An exemplar and its maps; files by their name and content, so that it may lie elsewhere.
-Json exemplar_settings(const ExemplarEntry& exemplar, const std::vector<std::string>& hashes) {
-  Json settings{{"image", valid_utf8(exemplar.image.filename().string())},
-                {"max_side", value_to_json(exemplar.max_side, {})},
-                {"hash", hashes.at(0)}};
-  std::size_t layer = 0;
-  for (const auto& [name, file] : exemplar.maps) {
+// A file by its name and content, so that it may lie elsewhere.
+Json file_settings(const fs::path& file, const std::string& hash) {
+  return {{"image", valid_utf8(file.filename().string())}, {"hash", hash}};
+}
+
+// A picture of an exemplar; `hash` is of its first file, and then behind the last.
+Json picture_settings(const ExemplarPicture& picture,
+                      std::vector<std::string>::const_iterator& hash) {
+  Json settings = file_settings(picture.image, *hash++);
+  for (const auto& [name, file] : picture.maps) {
     Json& map = settings["maps"][name];
-    map = {{"image", valid_utf8(file.image.filename().string())}, {"hash", hashes.at(++layer)}};
+    map = file_settings(file.image, *hash++);
     if (file.kind) map["kind"] = to_word(*file.kind);
     if (file.green) map["green"] = to_word(*file.green);
   }
+  if (picture.mask.is_name())
+    settings["mask"] = picture.mask.string();
+  else if (!picture.mask.empty())
+    settings["mask"] = file_settings(picture.mask, *hash++);
+  if (!picture.guide.empty()) settings["guide"] = file_settings(picture.guide, *hash++);
   return settings;
+}
+
+Json exemplar_settings(const ExemplarEntry& exemplar, const std::vector<std::string>& hashes) {
+  auto hash = hashes.begin();
+  Json settings = picture_settings(exemplar, hash);
+  settings["max_side"] = value_to_json(exemplar.max_side, {});
+  for (const ExemplarPicture& picture : exemplar.more)
+    settings["more"].push_back(picture_settings(picture, hash));
+  return settings;
+}
+
+// [guide], [mix], [turn] and [fill], each under its name. Files as above, all at the end.
+void add_direction(const Direction& direction, const Named<std::string>& hashes, Json& settings) {
+  for_each_direction(direction, [&]<class Entry>(const std::optional<Entry>& entry) {
+    if (!entry) return;
+    Json& section = settings[std::string(Entry::section)];
+    section = Json::object();
+    for_each_field<Entry>([&](const auto& field) {
+      using T = typename std::decay_t<decltype(field)>::value_type;
+      constexpr bool file = std::is_base_of_v<fs::path, T> ||
+                            std::is_same_v<T, std::vector<fs::path>> || is_named_files<T>;
+      if constexpr (!file)
+        section[std::string(field.name)] = value_to_json(*entry.*field.member, {});
+    });
+    for (const auto& [key, hash] : hashes)
+      if (key.starts_with(fmt::format("{}.", Entry::section)))
+        section["files"].push_back({key, hash});
+  });
+  if (direction.fill && direction.fill->mask.is_name())
+    settings["fill"]["mask"] = direction.fill->mask.string();
 }
 
 }  // namespace
@@ -57,11 +95,13 @@ Json job_settings(const Config& config, const Job& job, const InputHashes& input
   if (!inputs.method.empty()) settings["files"] = to_json_value(inputs.method);
   if (job.exemplar)
     settings["exemplar"] = exemplar_settings(config.exemplars[*job.exemplar], inputs.exemplar);
+  add_direction(config.direction, inputs.direction, settings);
   settings["seed"] = job.seed;
   settings["size"] = value_to_json(config.size, {});
   settings["tile"] = value_to_json(config.tile, {});
   settings["format"] = value_to_json(config.format, {});
   settings["pixel_type"] = value_to_json(config.pixel_type, {});
+  if (config.coordinates) settings["coordinates"] = true;
   if (!maps_asked(config.surface).empty()) settings["surface"] = fields_to_json(config.surface, {});
   if (config.preview) {
     settings["preview"] = fields_to_json(*config.preview, config.file.parent_path());
@@ -74,6 +114,7 @@ Json job_settings(const Config& config, const Job& job, const InputHashes& input
 InputHashes input_hashes(const Config& config, const Job& job, FileHashes& hashes) {
   InputHashes inputs;
   if (job.exemplar) inputs.exemplar = exemplar_hashes(config.exemplars[*job.exemplar], hashes);
+  inputs.direction = direction_hashes(config.direction, hashes);
   inputs.method = method_hashes(config.methods[job.method].method, hashes);
   inputs.preview = preview_hashes(config, hashes);
   return inputs;
@@ -85,10 +126,15 @@ Json config_to_json(const Config& config) {
   json["baseline"] = fields_to_json(config.baseline, folder);
   if (!maps_asked(config.surface).empty()) json["surface"] = fields_to_json(config.surface, folder);
   if (config.preview) json["preview"] = fields_to_json(*config.preview, folder);
+  for_each_direction(config.direction, [&]<class Entry>(const std::optional<Entry>& entry) {
+    if (entry) json[std::string(Entry::section)] = fields_to_json(*entry, folder);
+  });
   json["exemplar"] = Json::array();
   for (const auto& exemplar : config.exemplars) {
     Json entry{{"name", exemplar.name}};
     entry.update(fields_to_json(exemplar, folder));
+    for (const ExemplarPicture& picture : exemplar.more)
+      entry["more"].push_back(fields_to_json(picture, folder));
     json["exemplar"].push_back(entry);
   }
   json["method"] = Json::array();

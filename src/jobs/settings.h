@@ -14,7 +14,8 @@ Json method_to_json(const Method& method, const std::filesystem::path& folder);
 
 /// What the files that a job reads hold.
 struct InputHashes {
-  std::vector<std::string> exemplar;  // the picture's, then its maps'
+  std::vector<std::string> exemplar;  // of its pictures, in the order of files_of()
+  Named<std::string> direction;       // of [fill] and its like, by section and key
   Named<std::string> method;          // by the names of the parameters
   Named<std::string> preview;         // likewise
 

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "io/image_rows.h"
 #include "io/json_fields.h"
-#include "jobs/exemplar.h"
+#include "jobs/loaded_request.h"
 #include "jobs/machine.h"
 #include "jobs/protected_files.h"
 #include "jobs/settings.h"
@@ -60,7 +60,7 @@ bool has_integers(const fs::path& file, PixelType type) {
   return stored == PixelType::uint8 || stored == PixelType::uint16;
 }
 
-std::vector<Part> open_parts(const TileWork& work, const LoadedExemplar& exemplar,
+std::vector<Part> open_parts(const TileWork& work, const LoadedRequest& exemplar,
                              TiledFiles& tiled) {
   const Metadata metadata = metadata_of(work);
   std::vector<Part> parts;
@@ -132,14 +132,15 @@ void make_rows(const TileWork& work, const StochasticTiling& tiling, std::vector
 }  // namespace
 
 TiledFiles tile_picture(const TileWork& work, const Control& control) {
-  ExemplarEntry entry;
-  entry.name = work.picture.stem().string();
+  Config config;
+  config.exemplars.emplace_back();
+  ExemplarEntry& entry = config.exemplars.front();
   entry.image = work.picture;
   entry.maps = work.maps;
   entry.max_side = work.max_side;
   entry.place = "tile";
   TiledFiles tiled;
-  const LoadedExemplar exemplar = load_exemplar(entry);
+  const LoadedRequest exemplar = load_request(config, 0);
   tiled.notes = exemplar.notes;
   const auto usable = [&](auto&& work_on) {
     try {
@@ -154,8 +155,8 @@ TiledFiles tile_picture(const TileWork& work, const Control& control) {
     check_files(work);
     check_fields(work.params);
     check_size(work.size);
-    check_picture(exemplar.exemplar.image);
-    return StochasticTiling(exemplar.exemplar, work.params, work.size, work.tile,
+    check_picture(exemplar.exemplars.front().image);
+    return StochasticTiling(exemplar.exemplars.front(), work.params, work.size, work.tile,
                             Random(work.seed));
   });
   auto parts = usable([&] { return open_parts(work, exemplar, tiled); });

@@ -161,4 +161,18 @@ Copying copying(const Image& exemplar, const PatchTree& tree, const Image& image
           draw_map(field, source, marks, image, exemplar)};
 }
 
+Image source_colours(const SourceMap& source, const std::vector<Size>& exemplars) {
+  Image map(source.size, 3);
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x) {
+      const Source from = *source.at(x, y);
+      const Size size = exemplars.at(from.exemplar);
+      const float u = static_cast<float>(from.x) / static_cast<float>(std::max(1, size.width - 1));
+      const float v = static_cast<float>(from.y) / static_cast<float>(std::max(1, size.height - 1));
+      const std::array<float, 3> colour{u, v, 1 - (u + v) / 2};
+      for (std::size_t c = 0; c < 3; ++c) map.at(x, y)[(c + from.exemplar) % 3] = colour[c];
+    }
+  return map;
+}
+
 }  // namespace gramloom

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "core/request.h"
 #include "signal/patch_tree.h"
 
@@ -29,5 +31,9 @@ struct Copying {
 /// apart.
 Copying copying(const Image& exemplar, const PatchTree& tree, const Image& image,
                 const SourceMap& source = {});
+
+/// Where each pixel came from of exemplars of these sizes: as in Scores::copy_map at full
+/// brightness, the colours' channels exchanged from exemplar to exemplar.
+Image source_colours(const SourceMap& source, const std::vector<Size>& exemplars);
 
 }  // namespace gramloom

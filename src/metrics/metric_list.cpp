@@ -74,6 +74,11 @@ constexpr Metric list[]{
     {"seam_y", "seams",
      "step across the seam of the upper and lower edges over the strongest 5 % of lines inside",
      "from 0; up to 1 is invisible", false, "", "as seam_x", 1},
+    {"join", "seams",
+     "of a filled picture: step across the outline of what was made over that of 95 % of places "
+     "where the outline might lie",
+     "from 0; up to 1 is invisible", false, "",
+     "outlines that follow edges of the picture; a fill that is blurred or of the wrong kind", 1},
     {"diversity", "diversity",
      "1 less the mean strongest correlation at any shift of the results of two seeds",
      "0 to 1; 0 is the same picture", true, "",

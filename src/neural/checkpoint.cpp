@@ -55,6 +55,7 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
   std::map<std::string, TensorData> tensors{{"picture", to_data(checkpoint.picture)}};
   if (checkpoint.prices.defined()) tensors["prices"] = to_data(checkpoint.prices);
   if (checkpoint.sources.defined()) tensors["sources"] = to_data(checkpoint.sources);
+  if (checkpoint.nearest.defined()) tensors["nearest"] = to_data(checkpoint.nearest);
   for (const auto& [name, tensor] : checkpoint.optimiser.tensors)
     tensors[optimiser_prefix + name] = to_data(tensor);
   write_tensors(file, tensors, numbers);
@@ -78,6 +79,7 @@ std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& file,
   checkpoint.picture = to_tensor(tensors.at("picture"));
   if (tensors.contains("prices")) checkpoint.prices = to_tensor(tensors.at("prices"));
   if (tensors.contains("sources")) checkpoint.sources = to_tensor(tensors.at("sources"));
+  if (tensors.contains("nearest")) checkpoint.nearest = to_tensor(tensors.at("nearest"));
   for_each_kept(tensors, [&](const std::string& name, const TensorData& data) {
     checkpoint.optimiser.tensors[name] = to_tensor(data);
   });

@@ -22,6 +22,7 @@ struct Checkpoint {
   double first_loss = 0;
   std::int64_t layout_step = 0;
   at::Tensor prices, sources;  // of the layout; undefined: none
+  at::Tensor nearest;          // of a fill, on this level (loss/directed_places.h); likewise
   at::Tensor picture;          // (channels, height, width)
   SavedState optimiser;
 

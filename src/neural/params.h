@@ -54,7 +54,8 @@ struct NeuralParams : LossParams, FlowParams {
   static constexpr std::string_view kind = "neural";
   static constexpr std::string_view summary =
       "statistics of random filters or of a network (Gatys et al. 2015; Heitz et al. 2021)";
-  static constexpr Abilities abilities{Ability::exemplar};
+  static constexpr Abilities abilities{Ability::exemplar, Ability::exemplars, Ability::mask,
+                                       Ability::guide,    Ability::mix,       Ability::fill};
 
   Preset preset = Preset::balanced;
 

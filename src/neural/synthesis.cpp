@@ -10,9 +10,13 @@
 #include "core/threads.h"
 #include "io/image_file.h"
 #include "neural/checkpoint.h"
+#include "neural/directed_settings.h"
+#include "neural/flow/first_fill.h"
 #include "neural/flow/patch_flow.h"
 #include "neural/flow/sparse_detail.h"
+#include "neural/guidance.h"
 #include "neural/layout.h"
+#include "neural/loss/directed_places.h"
 #include "neural/loss/loss.h"
 #include "neural/module.h"
 #include "neural/network/make_network.h"
@@ -32,7 +36,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double seconds_between_checkpoints = 60;
 
-enum class Stream : std::uint64_t { loss = 1, edges, layout };
+enum class Stream : std::uint64_t { loss = 1, edges, layout, nearest };
 
 // The colours that the loss sees: an affine map of the exemplar's, undone for the result. Along the
 // principal axes of each layer the deviation becomes d^(1 − whitening), in units of the layer's
@@ -40,7 +44,7 @@ enum class Stream : std::uint64_t { loss = 1, edges, layout };
 ColourPca seen_colours(const NeuralParams& params, const NetworkDescription& description,
                        const Exemplar& exemplar) {
   const auto blocks = channel_blocks(exemplar.layers, exemplar.image.channels);
-  ColourPca colours = principal_axes(exemplar.image, blocks);
+  ColourPca colours = principal_axes(usable_pixels(exemplar.image, exemplar.mask), blocks);
   const auto channels = static_cast<std::size_t>(colours.channels);
   const auto common_of = [&](const ChannelBlock& block) {
     double variance = 0;
@@ -71,31 +75,92 @@ ColourPca seen_colours(const NeuralParams& params, const NetworkDescription& des
   return colours;
 }
 
-// With the layout that `automatic` stands for.
-NeuralParams with_layout(NeuralParams params, const Exemplar& layered, const Target& target) {
+// With the layout that `automatic` stands for. Known pixels keep a thin line thin.
+NeuralParams with_layout(NeuralParams params, const Exemplar& layered, const Request& request) {
   const Image& exemplar = layered.image;
   const int colours = channel_blocks(layered.layers, exemplar.channels).front().count;
   const bool automatic = params.layout == Layout::automatic;
-  params.layout = layout_by_size(params, exemplar.size(), target);
-  if (automatic && params.layout == Layout::flow &&
+  params.layout = layout_by_size(params, smallest_exemplar(size_of(request)), request.target);
+  if (automatic && params.layout == Layout::flow && request.target.known.empty() &&
       sparse_detail(extract_channels(exemplar, 0, colours)) > too_sparse_for_flow)
     params.layout = Layout::noise;
   return params;
 }
 
+// Levels that end where fewer than a few of the largest patches lie wholly in usable pixels, or,
+// where holes are to be filled, where the widest of them is as narrow as a part of a patch.
+int directed_levels(const NeuralParams& params, const Guidance& guidance, Size exemplar,
+                    int levels) {
+  if (params.levels > 0) return levels;
+  constexpr std::ptrdiff_t few = 64;
+  constexpr double narrow = 4;  // half its width
+  const auto patch = [&](int level) {
+    int side = *std::ranges::max_element(params.patch_sizes);
+    if (params.layout == Layout::flow)
+      side = std::max(side, at_level(params.flow_patch_sizes, level));
+    return side;
+  };
+  const auto has_patches = [&](int level) {
+    const Size size = level_size(params, exemplar, level);
+    if (guidance.usable.empty()) return true;
+    const auto origins =
+        usable_origins(scaled_mask(guidance.usable, size), size, {patch(level), patch(level)});
+    return std::ranges::count(origins, 1) >= few;
+  };
+  while (levels > 1 && !has_patches(levels - 1)) --levels;
+  if (!guidance.fills()) return levels;
+  const double wide = thickness(guidance.made);
+  const auto is_narrow = [&](int level) {
+    return wide * level_size(params, exemplar, level).width / exemplar.width <= narrow;
+  };
+  while (levels > 1 && is_narrow(levels - 2)) --levels;
+  return levels;
+}
+
+// The pixels of a picture that a fill makes, (channels, pixels); without a fill, none of it.
+class MadePixels {
+ public:
+  explicit MadePixels(const Guidance& guidance) {
+    std::vector<std::int64_t> places;
+    for (std::size_t i = 0; i < guidance.made.pixels.size(); ++i)
+      if (guidance.made.pixels[i] > 0) places.push_back(static_cast<std::int64_t>(i));
+    if (guidance.fills()) places_ = at::tensor(places, at::kLong);
+  }
+
+  bool all() const { return !places_.defined(); }
+  at::Tensor take(const at::Tensor& picture) const {
+    return picture.view({picture.size(0), -1}).index_select(1, places_);
+  }
+  void put(const at::Tensor& pixels, at::Tensor& picture) const {
+    picture.view({picture.size(0), -1}).index_copy_(1, places_, pixels);
+  }
+
+ private:
+  at::Tensor places_;
+};
+
+void copy_known(const Target& target, Image& image) {
+  if (target.known.empty()) return;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (*target.mask.at(x, y) <= 0.5f)
+        std::copy_n(target.known.at(x, y), image.channels, image.at(x, y));
+}
+
 // One synthesis under way.
 class Synthesis {
  public:
-  Synthesis(const NeuralParams& params, const Exemplar& layered, const Target& target,
-            Random random, const Control& control)
-      : params_(with_layout(params, layered, target)),
-        target_(target),
-        random_(random),
+  Synthesis(const NeuralParams& params, const Request& request, const United& united,
+            const Control& control)
+      : params_(with_layout(params, united.exemplar(), request)),
+        target_(request.target),
+        random_(request.random),
         control_(control),
-        principal_(colour_pca(layered.image)),
-        levels_(level_count(params_, layered.image.size(), target)),
-        canvas_(canvas_size(params, target)),
+        principal_(colour_pca(usable_pixels(united.exemplar().image, united.exemplar().mask))),
+        levels_(level_count(params_, smallest_exemplar(size_of(request)), target_)),
+        canvas_(canvas_size(params, target_)),
         start_(Clock::now()) {
+    const Exemplar& layered = united.exemplar();
     const Image& exemplar = layered.image;
     if (needs_network(params)) {
       description_ = read_network(find_network(params.network));
@@ -104,13 +169,16 @@ class Synthesis {
     }
     colours_ = seen_colours(params, description_, layered);
     exemplar_ = to_planes(whitened(exemplar, colours_));
+    guidance_ = guidance_of(request, united, canvas_, colours_);
+    if (guidance_) levels_ = directed_levels(params_, *guidance_, exemplar.size(), levels_);
     if (needs_network(params)) {
       network_ = make_network(params, description_, exemplar_);
       matched_.emplace(*network_, description_, layers_);
     }
     if (params_.layout == Layout::flow)
-      flow_.emplace(params_, exemplar_, Target{canvas_, target.tile},
-                    random.stream(std::uint64_t(Stream::layout)));
+      flow_.emplace(params_, exemplar_, Target{canvas_, target_.tile},
+                    random_.stream(std::uint64_t(Stream::layout)),
+                    guidance_ ? &*guidance_ : nullptr);
     state_.identity = control.identity;
   }
 
@@ -128,6 +196,7 @@ class Synthesis {
       state_.iteration = 0;
       state_.layout_step = 0;
       state_.optimiser = {};
+      state_.nearest = at::Tensor();
       if (!copied) continue;
       state_.first_level = state_.level;
       state_.picture = at::Tensor();
@@ -197,6 +266,7 @@ class Synthesis {
   bool copies_layout() const {
     const double next = std::pow(flow_ ? 0.5 : params_.level_factor, state_.level - 1);
     if (params_.levels > 0 || state_.level != state_.first_level || next > 0.5) return false;
+    if (guidance_ && guidance_->directs()) return false;
     if (!params_.start.empty() || out_of_time()) return false;
     const at::Tensor exemplar = exemplar_of_level();
     const Size own = size_of(state_.picture), size = size_of(exemplar);
@@ -228,27 +298,55 @@ class Synthesis {
   // Optimises one level; false when the synthesis should stop.
   bool run_level() {
     const bool resumed = state_.iteration > 0;
+    const bool begins = !state_.picture.defined();
+    if (begins && guidance_ && guidance_->fills() && params_.start.empty()) {
+      const at::Tensor exemplar = exemplar_of_level();
+      const Guidance guidance =
+          scaled(*guidance_, size_of(exemplar), level_size(params_, canvas_, state_.level));
+      state_.picture = to_planes(
+          first_fill(guidance, to_image(guidance.known), to_image(exemplar), first_patch()));
+    }
     if (flow_ && !resumed && !make_layout()) return false;
     const Size size = flow_ ? size_of(state_.picture) : level_size(params_, canvas_, state_.level);
     const int iterations = at_level(params_.iterations, state_.level);
     const Optimizer kind = at_level(params_.optimizer, state_.level);
     if (!state_.picture.defined())
       state_.picture = first_picture(size);
-    else if (!flow_ && !resumed)
+    else if (!flow_ && !resumed && !begins)
       state_.picture = enlarged(size);
 
     if (state_.iteration >= iterations || out_of_time()) return true;
 
+    const at::Tensor exemplar = exemplar_of_level();
+    std::optional<Guidance> guidance;
+    if (guidance_) guidance = scaled(*guidance_, size_of(exemplar), size);
+    if (!resumed && guidance && guidance->fills()) {
+      keep_known(*guidance, state_.picture);
+      state_.nearest = nearest_places(*guidance, exemplar, state_.picture, largest_patch(),
+                                      random_.stream(std::uint64_t(Stream::nearest))
+                                          .stream(static_cast<std::uint64_t>(state_.level)));
+    }
+
     malloc_trim(0);  // the buffers of the level before have other sizes, and would stay
-    Loss loss(params_, matched_ ? &*matched_ : nullptr, exemplar_of_level(), exemplar_edges(),
+    Loss loss(params_, matched_ ? &*matched_ : nullptr, exemplar, exemplar_edges(),
               {size, target_.tile}, edges(),
               random_.stream(std::uint64_t(Stream::loss))
-                  .stream(static_cast<std::uint64_t>(state_.level)));
+                  .stream(static_cast<std::uint64_t>(state_.level)),
+              guidance ? &*guidance : nullptr, state_.nearest);
     // L-BFGS needs the same function at each step; Adam takes random ones.
     const Objective objective = [&](const at::Tensor& picture, at::Tensor& gradient) {
       const auto step = kind == Optimizer::adam ? state_.iteration : 0;
       ++state_.evaluations;
       return loss(picture, static_cast<std::uint64_t>(step), gradient);
+    };
+    // Of a fill, the pixels that are made alone.
+    const MadePixels made(guidance ? *guidance : Guidance());
+    const Objective of_made = [&](const at::Tensor& pixels, at::Tensor& gradient) {
+      made.put(pixels, state_.picture);
+      at::Tensor whole = at::empty_like(state_.picture);
+      const double value = objective(state_.picture, whole);
+      gradient.copy_(made.take(whole));
+      return value;
     };
     AnyOptimiser optimiser = kind == Optimizer::lbfgs
                                  ? AnyOptimiser(Lbfgs(params_.history))
@@ -256,8 +354,10 @@ class Synthesis {
     return std::visit(
         [&](auto& method) {
           if (resumed) method.load(state_.optimiser);
+          at::Tensor pixels = made.all() ? state_.picture : made.take(state_.picture);
           while (state_.iteration < iterations && !method.converged()) {
-            const double value = method.step(state_.picture, objective);
+            const double value = method.step(pixels, made.all() ? objective : of_made);
+            if (!made.all()) made.put(pixels, state_.picture);
             if (!std::isfinite(value))
               throw Error("the loss became {} at step {}: try a smaller learning_rate", value,
                           state_.iteration + 1);
@@ -273,6 +373,9 @@ class Synthesis {
         },
         optimiser);
   }
+
+  int first_patch() const { return std::max(largest_patch(), 8); }
+  int largest_patch() const { return *std::ranges::max_element(params_.patch_sizes); }
 
   // Finer levels then only make the picture larger; something must have been done first.
   bool out_of_time() const { return state_.evaluations > 0 && seconds() >= params_.stop_seconds; }
@@ -312,7 +415,8 @@ class Synthesis {
   NetworkDescription description_;
   std::vector<MatchedLayer> layers_;
   at::Tensor exemplar_;
-  std::optional<PatchFlow> flow_;  // undefined: levels begin with the coarser one's picture
+  std::optional<Guidance> guidance_;  // nothing: the exemplar as a whole
+  std::optional<PatchFlow> flow_;     // undefined: levels begin with the coarser one's picture
   std::optional<Network> network_;
   std::optional<MatchedNetwork> matched_;
   Checkpoint state_;
@@ -322,15 +426,19 @@ class Synthesis {
 
 }  // namespace
 
-Texture run_synthesis(const NeuralParams& params, const Request& request, const Control& control) {
-  const Image& exemplar = request.exemplars.front().image;
+Texture run_synthesis(const NeuralParams& asked, const Request& request, const Control& control) {
   const c10::NoGradGuard no_gradients;
   start_openmp();
-  Synthesis synthesis(params, request.exemplars.front(), request.target, request.random, control);
+  const NeuralParams params = directed_settings(asked, size_of(request));
+  const United united(request);
+  const Exemplar& exemplar = united.exemplar();
+  Synthesis synthesis(params, request, united, control);
   Texture texture;
   texture.image = unwhitened(to_image(synthesis.run()), synthesis.colours());
-  if (params.match_histogram) match_histogram(texture.image, exemplar);
-  clamp_to(texture.image, channel_range(exemplar));
+  const Image pixels = usable_pixels(exemplar.image, exemplar.mask);
+  if (params.match_histogram) match_histogram(texture.image, pixels);
+  clamp_to(texture.image, channel_range(pixels));
+  copy_known(request.target, texture.image);
   return texture;
 }
 

@@ -1,5 +1,6 @@
 #include "signal/random_phase.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -7,6 +8,7 @@
 
 #include "core/threads.h"
 #include "signal/fourier.h"
+#include "signal/united.h"
 #include "signal/window.h"
 
 namespace gramloom {
@@ -78,6 +80,70 @@ cv::Mat spot_coefficients(const cv::Mat& plane, Size period, double fade) {
   return coefficients;
 }
 
+double usable_count(const Exemplar& exemplar) {
+  if (exemplar.mask.empty()) return 1.0 * exemplar.image.width * exemplar.image.height;
+  return static_cast<double>(
+      std::ranges::count_if(exemplar.mask.pixels, [](float m) { return m > 0.5f; }));
+}
+
+/// Spectrum of the spot of a masked exemplar: its usable pixels less their mean among zeros, scaled
+/// so that it keeps their variance over the period; the mean at frequency 0.
+cv::Mat masked_spot_coefficients(const Exemplar& exemplar, int channel, Size period) {
+  const Image &image = exemplar.image, &mask = exemplar.mask;
+  const double count = usable_count(exemplar);
+  double mean = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (*mask.at(x, y) > 0.5f) mean += double{image.at(x, y)[channel]} / count;
+  const double scale = std::sqrt(1.0 * period.width * period.height / count);
+  cv::Mat spot = cv::Mat::zeros(period.height, period.width, CV_32F);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (*mask.at(x, y) > 0.5f)
+        spot.at<float>(y % period.height, x % period.width) +=
+            static_cast<float>((double{image.at(x, y)[channel]} - mean) * scale);
+  cv::Mat coefficients = fourier_coefficients(spot);
+  coefficients.at<Complex>(0, 0) = static_cast<float>(mean);
+  return coefficients;
+}
+
+/// Smallest and largest usable value of each channel.
+ChannelRange usable_range(const std::vector<Exemplar>& exemplars) {
+  ChannelRange range;
+  for (const Exemplar& exemplar : exemplars) {
+    const ChannelRange own = channel_range(
+        exemplar.mask.empty() ? exemplar.image : extended(exemplar.image, exemplar.mask));
+    if (range.low.empty()) range = own;
+    for (std::size_t c = 0; c < own.low.size(); ++c) {
+      range.low[c] = std::min(range.low[c], own.low[c]);
+      range.high[c] = std::max(range.high[c], own.high[c]);
+    }
+  }
+  return range;
+}
+
+/// The share of an exemplar at each pixel.
+class Shares {
+ public:
+  Shares(const std::vector<Exemplar>& exemplars, const Image& weights) : weights_(weights) {
+    double all = 0;
+    for (const Exemplar& exemplar : exemplars) all += usable_count(exemplar);
+    for (const Exemplar& exemplar : exemplars)
+      usable_.push_back(static_cast<float>(usable_count(exemplar) / all));
+  }
+  float at(std::size_t exemplar, int x, int y) const {
+    if (weights_.empty()) return usable_[exemplar];
+    const float* weights = map_at(weights_, x, y);
+    float sum = 0;
+    for (std::size_t i = 0; i < usable_.size(); ++i) sum += weights[i];
+    return weights[exemplar] / sum;
+  }
+
+ private:
+  const Image& weights_;
+  std::vector<float> usable_;
+};
+
 /// body(channel) in parallel.
 void for_each_channel(const Image& image, const std::function<void(int)>& body) {
   parallel_for(image.channels, 1, [&](std::int64_t begin, std::int64_t end) {
@@ -99,6 +165,39 @@ Image random_phase_texture(const Image& exemplar, Size size, Tile tile, double f
     set_channel(result, c, from_fourier_coefficients(coefficients));
   });
   clamp_to(result, channel_range(exemplar));
+  return result;
+}
+
+Image random_phase_texture(const std::vector<Exemplar>& exemplars, const Image& weights, Size size,
+                           Tile tile, double fade, Random random) {
+  if (exemplars.size() == 1 && exemplars.front().mask.empty())
+    return random_phase_texture(exemplars.front().image, size, tile, fade, random);
+  Size period{1, 1};
+  for (const Exemplar& exemplar : exemplars)
+    period = {
+        std::max(period.width, period_for(exemplar.image.width, size.width, tiles_x(tile))),
+        std::max(period.height, period_for(exemplar.image.height, size.height, tiles_y(tile)))};
+  const Shares shares(exemplars, weights);
+  Image result(size, exemplars.front().image.channels);
+  for (std::size_t i = 0; i < exemplars.size(); ++i) {
+    const Exemplar& exemplar = exemplars[i];
+    const cv::Mat phases = random_phases(period, random.stream(i));
+    for_each_channel(result, [&](int c) {
+      cv::Mat coefficients = exemplar.mask.empty()
+                                 ? spot_coefficients(channel_plane(exemplar.image, c), period, fade)
+                                 : masked_spot_coefficients(exemplar, c, period);
+      const float mean = coefficients.at<Complex>(0, 0).real();
+      coefficients.at<Complex>(0, 0) = 0;
+      add_phases(coefficients, phases);
+      const cv::Mat noise = from_fourier_coefficients(coefficients);
+      for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x) {
+          const float share = shares.at(i, x, y);
+          result.at(x, y)[c] += share * mean + std::sqrt(share) * noise.at<float>(y, x);
+        }
+    });
+  }
+  clamp_to(result, usable_range(exemplars));
   return result;
 }
 

@@ -148,7 +148,10 @@ TEST(PixelSearch, CoherenceLosesLittleAgainstExact) {
     for (const PixelSearch search : {PixelSearch::coherence, PixelSearch::exact}) {
       PixelParams params;
       params.search = search;
-      const Canvas canvas = method(params, exemplar, {{40, 40}, Tile::both}, Random(1), {});
+      const Exemplar material{exemplar};
+      const Image none;
+      const Canvas canvas =
+          method(params, {material, {40, 40}, Tile::both, none, none, none, none}, Random(1), {});
       found[static_cast<int>(search)] = misfit(canvas, level, similar, params.radius);
     }
     const auto& [coherence, exact] = found;

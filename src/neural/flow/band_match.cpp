@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "neural/guidance.h"
 #include "signal/blur.h"
 
 namespace gramloom::neural {
@@ -62,13 +63,16 @@ std::vector<float> factors(const std::vector<float>& goal, const std::vector<flo
 
 }  // namespace
 
-BandStatistics band_statistics(const Image& image, Tile wraps, Size picture) {
+BandStatistics band_statistics(const Image& image, Tile wraps, Size picture, const Image& usable) {
+  const auto moments_of = [&](const Image& band) {
+    return usable.empty() ? moments(band) : moments(usable_pixels(band, usable));
+  };
   BandStatistics statistics;
   for_each_band(
       image, wraps, std::min(bands_of(image.size()), bands_of(picture)),
-      [&](const Image& band) { statistics.deviation.push_back(moments(band).deviation); },
+      [&](const Image& band) { statistics.deviation.push_back(moments_of(band).deviation); },
       [&](const Image& rest) {
-        const Moments m = moments(rest);
+        const Moments m = moments_of(rest);
         statistics.deviation.push_back(m.deviation);
         statistics.mean = m.mean;
       });
@@ -94,6 +98,25 @@ void match_bands(Image& image, const BandStatistics& exemplar) {
           const std::size_t c = i % channels;
           result.pixels[i] += (rest.pixels[i] - m.mean[c]) * factor[c] + exemplar.mean[c];
         }
+      });
+  image = std::move(result);
+}
+
+void match_bands(Image& image, const BandStatistics& exemplar, const Image& made) {
+  const std::size_t bands = std::min(exemplar.deviation.size() - 1, bands_of(image.size()));
+  const auto channels = static_cast<std::size_t>(image.channels);
+  Image result(image.size(), image.channels);
+  std::size_t band = 0;
+  for_each_band(
+      image, Tile::both, bands,
+      [&](const Image& part) {
+        const auto factor =
+            factors(exemplar.deviation[band++], moments(usable_pixels(part, made)).deviation);
+        for (std::size_t i = 0; i < part.pixels.size(); ++i)
+          result.pixels[i] += part.pixels[i] * factor[i % channels];
+      },
+      [&](const Image& rest) {
+        for (std::size_t i = 0; i < rest.pixels.size(); ++i) result.pixels[i] += rest.pixels[i];
       });
   image = std::move(result);
 }

@@ -36,7 +36,8 @@ std::vector<Offer> offers(const Sources& sources, const Search& search, double s
         const PatchPlace place{own.x + factor * static_cast<int>(shift[0]),
                                own.y + factor * static_cast<int>(shift[1])};
         const Size places = search.prices.places;
-        if (place.x >= 0 && place.y >= 0 && place.x < places.width && place.y < places.height)
+        if (place.x >= 0 && place.y >= 0 && place.x < places.width && place.y < places.height &&
+            search.usable(place))
           result.push_back({query, place});
       };
       offer(row, column);
@@ -61,8 +62,7 @@ at::Tensor sources_of(Size size, const std::vector<PatchPlace>& queries,
   return shifts;
 }
 
-void remember(const Image& exemplar, const Sources& sources, const Search& search,
-              const PatchAxes& axes, double share, Random random,
+void remember(const Sources& sources, const Search& search, double share, Random random,
               std::vector<PatchPlace>& references, Neighbours& found) {
   const std::vector<Offer> offered = offers(sources, search, share, random);
   constexpr std::size_t at_once = 1 << 16;  // of millions in a large picture
@@ -73,13 +73,13 @@ void remember(const Image& exemplar, const Sources& sources, const Search& searc
       std::vector<PatchPlace> places;
       for (std::size_t j = i; j < std::min(i + at_once, offered.size()); ++j)
         places.push_back(offered[j].place);
-      vectors = project(exemplar, places, axes);
+      vectors = search.references(places);
     }
     const float* v = vectors.at(static_cast<std::int64_t>(i % at_once));
     const float* q = search.of_picture.at(offered[i].query);
     float norm = 0, product = 0;
     for (std::int64_t d = 0; d < vectors.dimensions; ++d) {
-      norm += v[d] * v[d];
+      if (d < search.dimensions) norm += v[d] * v[d];
       product += v[d] * q[d];
     }
     const PatchPlace place = offered[i].place;

@@ -2,6 +2,8 @@
 
 #include <ATen/ATen.h>
 
+#include <functional>
+
 #include "core/random.h"
 #include "neural/flow/prices.h"
 
@@ -25,13 +27,15 @@ struct Search {
   const Vectors& of_picture;
   float scale;  // of nearest_references()
   Prices prices;
+  std::int64_t dimensions;  // of the vectors, without those of a guide (guided_patches.h)
+  std::function<Vectors(const std::vector<PatchPlace>&)> references;  // vectors of the exemplar's
+  std::function<bool(PatchPlace)> usable;                             // place of the exemplar
 };
 
 /// Offers a share of the patches what their own place and one beside it came from in the last step,
 /// moved along with them: pieces of the exemplar then grow beyond a patch, as in PatchMatch. What
 /// is nearer than the neighbours found takes its place among them; its place joins the references.
-void remember(const Image& exemplar, const Sources& sources, const Search& search,
-              const PatchAxes& axes, double share, Random random,
+void remember(const Sources& sources, const Search& search, double share, Random random,
               std::vector<PatchPlace>& references, Neighbours& found);
 
 }  // namespace gramloom::neural

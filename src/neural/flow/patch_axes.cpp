@@ -38,19 +38,16 @@ Size patch_places(Size image, int side) {
   return {image.width - side + 1, image.height - side + 1};
 }
 
-PatchAxes patch_axes(const Image& image, int side, int count, Random random) {
-  const Size places = patch_places(image.size(), side);
-  if (places.width < 1 || places.height < 1)
-    throw Error("a patch of {0}×{0} does not fit into a picture of {1}×{2}", side, image.width,
-                image.height);
+namespace {
+
+// draw(): the place of a patch.
+template <class F>
+PatchAxes axes_of(const Image& image, int side, int count, F&& draw) {
   const InThisThread in_this_thread;  // the same sums for any number of threads
   const std::int64_t values = std::int64_t{side} * side * image.channels;
   at::Tensor patches = at::empty({patches_for_axes, values}, at::kFloat);
   for (std::int64_t i = 0; i < patches_for_axes; ++i) {
-    const PatchPlace place{
-        static_cast<int>(random.below(static_cast<std::uint32_t>(places.width))),
-        static_cast<int>(random.below(static_cast<std::uint32_t>(places.height)))};
-    copy_patch(image, place, side, patches.data_ptr<float>() + i * values);
+    copy_patch(image, draw(), side, patches.data_ptr<float>() + i * values);
   }
   patches -= patches.mean(0, true);
   const at::Tensor covariance = at::matmul(patches.t(), patches).to(at::kDouble) / patches_for_axes;
@@ -61,6 +58,26 @@ PatchAxes patch_axes(const Image& image, int side, int count, Random random) {
   PatchAxes axes{side, Vectors(kept, values)};
   std::copy_n(strongest.data_ptr<float>(), kept * values, axes.axes.values.data());
   return axes;
+}
+
+}  // namespace
+
+PatchAxes patch_axes(const Image& image, int side, int count, Random random) {
+  const Size places = patch_places(image.size(), side);
+  if (places.width < 1 || places.height < 1)
+    throw Error("a patch of {0}×{0} does not fit into a picture of {1}×{2}", side, image.width,
+                image.height);
+  return axes_of(image, side, count, [&] {
+    const auto x = static_cast<int>(random.below(static_cast<std::uint32_t>(places.width)));
+    const auto y = static_cast<int>(random.below(static_cast<std::uint32_t>(places.height)));
+    return PatchPlace{x, y};
+  });
+}
+
+PatchAxes patch_axes(const Image& image, int side, int count, Random random,
+                     const std::vector<PatchPlace>& places) {
+  return axes_of(image, side, count,
+                 [&] { return places[random.below(static_cast<std::uint32_t>(places.size()))]; });
 }
 
 Vectors project(const Image& image, const std::vector<PatchPlace>& places, const PatchAxes& axes) {

@@ -22,6 +22,9 @@ struct PatchAxes {
 /// The `count` principal axes of the image's patches, taken from a few thousand of them; fewer if a
 /// patch has fewer values. Throws Error when no patch fits.
 PatchAxes patch_axes(const Image& image, int side, int count, Random random);
+/// Likewise, taken from some of these places.
+PatchAxes patch_axes(const Image& image, int side, int count, Random random,
+                     const std::vector<PatchPlace>& places);
 
 /// The patches at these places along the axes. Patches go on across the edges that wrap. The same
 /// bytes for any number of threads.

@@ -3,16 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "neural/flow/band_match.h"
+#include "neural/flow/guided_patches.h"
 #include "neural/flow/memory.h"
 #include "neural/flow/nearest.h"
 #include "neural/flow/patch_axes.h"
 #include "neural/flow/prices.h"
 #include "neural/flow/vote.h"
+#include "neural/guide_draws.h"
+#include "neural/loss/directed_places.h"
 #include "neural/normal_numbers.h"
 #include "neural/openmp.h"
 #include "neural/picture.h"
+#include "neural/quarter_means.h"
 #include "neural/resample.h"
 #include "neural/settings.h"
 #include "signal/courses.h"
@@ -22,6 +27,7 @@ namespace gramloom::neural {
 namespace {
 
 constexpr int axes_kept = 48;
+constexpr std::int64_t most_looked_at_for_a_fill = 16384;
 constexpr double window_spread = 0.25;  // of a patch's side
 constexpr double price_spread = 0.25;   // likewise: patches that lie this near are one
 constexpr float courses_time = 0.45f;   // at which the courses are laid out
@@ -78,6 +84,44 @@ std::vector<float> likelihoods(const Neighbours& found, float t) {
   return weights;
 }
 
+// How much a pixel of an exemplar counts in a vote: the less, the less its guide is like that of
+// the place that it would be laid at.
+class GuideAgreement {
+ public:
+  explicit GuideAgreement(const Guidance& guidance) : guidance_(guidance) {}
+
+  float operator()(int x, int y, int u, int v) const {
+    constexpr float sharpness = 0.5f, least = 1e-3f;
+    const float *wanted = guidance_.guide.at(x, y), *own = guidance_.exemplar_guide.at(u, v);
+    const float weight = *guidance_.guide_weight.at(x, y);
+    float distance = 0;
+    for (int c = 0; c < guidance_.guide.channels; ++c)
+      distance += (wanted[c] - own[c]) * (wanted[c] - own[c]);
+    return least + std::exp(-sharpness * weight * weight * distance);
+  }
+
+ private:
+  const Guidance& guidance_;
+};
+
+// The mean price of places of about one guide becomes 0.
+void level_prices(const GuideGroups& groups, const std::vector<PatchPlace>& usable, Prices prices) {
+  const auto count = static_cast<std::size_t>(groups.middle.count());
+  std::vector<double> sums(count), numbers(count);
+  const auto price = [&](PatchPlace p) -> float& {
+    return prices.values[p.y * prices.places.width + p.x];
+  };
+  for (std::size_t i = 0; i < usable.size(); ++i) {
+    const auto group = static_cast<std::size_t>(groups.group[i]);
+    sums[group] += price(usable[i]);
+    ++numbers[group];
+  }
+  for (std::size_t i = 0; i < usable.size(); ++i) {
+    const auto group = static_cast<std::size_t>(groups.group[i]);
+    price(usable[i]) -= static_cast<float>(sums[group] / numbers[group]);
+  }
+}
+
 }  // namespace
 
 struct PatchFlow::Octave {
@@ -88,17 +132,29 @@ struct PatchFlow::Octave {
   BandStatistics bands;
   std::vector<float> window;
   std::vector<float> times;  // times[i] before step i
+
+  // With guidance alone:
+  Guidance guidance;
+  std::vector<PatchPlace> usable;
+  GuideGroups like_guides;               // of `usable`
+  std::vector<unsigned char> is_usable;  // of all places
+  std::vector<unsigned char> counts;     // of a fill: of all patches of the picture
+  std::optional<GuidedPatches> guided;
+
+  bool fills() const { return guidance.fills(); }
+  bool guides() const { return guidance.guides(); }
 };
 
 PatchFlow::PatchFlow(const FlowParams& params, const at::Tensor& exemplar, const Target& target,
-                     Random random)
-    : params_(params), target_(target), size_(target.size), random_(random) {
+                     Random random, const Guidance* guidance)
+    : params_(params), target_(target), size_(target.size), random_(random), guidance_(guidance) {
   const double square = [&] {
     const InThisThread in_this_thread;  // the same sum for any number of threads
     return exemplar.square().mean().item<double>();
   }();
   scale_ = square > 0 ? 1 / std::sqrt(square) : 1;
   exemplar_ = exemplar * scale_;
+  if (guidance && (guidance->directs() || !guidance->whole)) return;
   const Image image = to_image(exemplar);
   x_ = courses_along(image, Axis::x, tiles_x(target.tile), size_.width);
   y_ = courses_along(image, Axis::y, tiles_y(target.tile), size_.height);
@@ -119,22 +175,55 @@ PatchFlow::Octave& PatchFlow::octave(int index, bool coarsest) {
   const int side = at_level(params_.flow_patch_sizes, index);
   o->places = patch_places(o->exemplar.size(), side);
   const auto part = static_cast<std::uint64_t>(index);
-  o->axes = patch_axes(o->exemplar, side, axes_kept,
-                       random_.stream(part).stream(std::uint64_t(Stream::axes)));
-  o->bands = band_statistics(o->exemplar, Tile::none, o->size);
+  const Random of_axes = random_.stream(part).stream(std::uint64_t(Stream::axes));
+  if (guidance_) {
+    direct(*o, side);
+    o->axes = patch_axes(o->exemplar, side, axes_kept, of_axes, o->usable);
+  } else {
+    o->axes = patch_axes(o->exemplar, side, axes_kept, of_axes);
+  }
+  o->bands = band_statistics(o->exemplar, Tile::none, o->size, o->guidance.usable);
   o->window = vote_window(side, window_spread);
   const int steps = at_level(params_.flow_steps, index);
-  if (coarsest && x_.count + y_.count == 0) {  // the first step, towards the mean, is known
+  if (coarsest && !o->fills() &&
+      x_.count + y_.count == 0) {  // the first step, towards the mean, is known
     for (int i = 1; i < steps + 2; ++i)
       o->times.push_back(static_cast<float>(i) / static_cast<float>(steps + 1));
   } else {
-    const float first =
-        coarsest ? courses_time : static_cast<float>(at_level(params_.flow_renoise, index));
+    const float first = coarsest && !o->fills()
+                            ? courses_time
+                            : static_cast<float>(at_level(params_.flow_renoise, index));
     for (int i = 0; i <= steps; ++i)
       o->times.push_back(first + (1 - first) * static_cast<float>(i) / static_cast<float>(steps));
   }
   octave_ = std::move(o);
   return *octave_;
+}
+
+void PatchFlow::direct(Octave& o, int side) const {
+  o.guidance = scaled(*guidance_, o.exemplar.size(), o.size);
+  for (const auto& of_exemplar : usable_places(o.guidance, o.exemplar.size(), side))
+    o.usable.insert(o.usable.end(), of_exemplar.begin(), of_exemplar.end());
+  const auto at = [](PatchPlace p, int width) {
+    return static_cast<std::size_t>(p.y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(p.x);
+  };
+  o.is_usable.resize(static_cast<std::size_t>(o.places.width) *
+                     static_cast<std::size_t>(o.places.height));
+  for (const PatchPlace p : o.usable) o.is_usable[at(p, o.places.width)] = 1;
+  o.guided.emplace(o.guidance, side, 1);
+  if (o.guides()) {
+    const Image means = quarter_means(o.guidance.exemplar_guide, side);
+    GuideRows rows{means.channels, {}};
+    for (const PatchPlace p : o.usable)
+      rows.values.insert(rows.values.end(), means.at(p.x, p.y),
+                         means.at(p.x, p.y) + means.channels);
+    o.like_guides = group_guides(rows, 64);
+  }
+  if (!o.fills()) return;
+  o.counts.resize(static_cast<std::size_t>(o.size.width) * static_cast<std::size_t>(o.size.height));
+  for (const PatchPlace p : made_places(o.guidance, o.size, side))
+    o.counts[at(p, o.size.width)] = 1;
 }
 
 void PatchFlow::step(FlowState& state, int index, bool coarsest) {
@@ -145,7 +234,7 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
     const at::Tensor noise =
         white_noise(random.stream(std::uint64_t(Stream::noise)), channels, o.size);
     const float t = o.times[0];
-    if (coarsest) {
+    if (coarsest && !o.fills()) {
       state.sources = at::Tensor();  // of a layout that was thrown away
       const auto scaled = [&](PeriodicAxis axis, int own, std::int64_t whole) {
         return PeriodicAxis{axis.period * own / static_cast<double>(whole), axis.count};
@@ -157,6 +246,7 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
       state.picture = resample(state.picture, o.size, Tile::both) * (scale_ * t) + noise * (1 - t);
     }
     state.prices = at::zeros({o.places.height, o.places.width}, at::kFloat);
+    if (o.fills()) keep_known(o.guidance, state.picture, scale_ * t);
   }
   const auto at_step = [&](Stream stream) {
     return random.stream(std::uint64_t(stream)).stream(static_cast<std::uint64_t>(state.step));
@@ -172,27 +262,44 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
             shift_y = static_cast<int>(shift.below(patch_stride));
   std::vector<PatchPlace> queries, references;
   for (int y = 0; y < o.size.height; y += patch_stride)
-    for (int x = 0; x < o.size.width; x += patch_stride)
-      queries.push_back({(x + shift_x) % o.size.width, (y + shift_y) % o.size.height});
-  const std::int64_t patches = std::int64_t{o.places.width} * o.places.height;
+    for (int x = 0; x < o.size.width; x += patch_stride) {
+      const PatchPlace p{(x + shift_x) % o.size.width, (y + shift_y) % o.size.height};
+      if (!o.fills() || o.counts[static_cast<std::size_t>(p.y * o.size.width + p.x)] != 0)
+        queries.push_back(p);
+    }
+  const std::int64_t patches =
+      guidance_ ? std::ssize(o.usable) : std::int64_t{o.places.width} * o.places.height;
   const double pixels = static_cast<double>(o.size.width) * o.size.height;
-  for (const std::int64_t i :
-       draw(params_.references(patches, pixels), patches, at_step(Stream::references)))
-    references.push_back(
-        {static_cast<int>(i % o.places.width), static_cast<int>(i / o.places.width)});
+  const std::int64_t looked_at = o.fills() ? std::min(patches, most_looked_at_for_a_fill)
+                                           : params_.references(patches, pixels);
+  for (const std::int64_t i : draw(looked_at, patches, at_step(Stream::references)))
+    references.push_back(guidance_ ? o.usable[static_cast<std::size_t>(i)]
+                                   : PatchPlace{static_cast<int>(i % o.places.width),
+                                                static_cast<int>(i / o.places.width)});
   Vectors of_picture = project(picture, queries, o.axes);
-  const Vectors of_exemplar = project(o.exemplar, references, o.axes);
+  Vectors of_exemplar = project(o.exemplar, references, o.axes);
+  const std::int64_t dimensions = of_exemplar.dimensions;
   std::vector<float> norms(references.size());
   for (std::size_t r = 0; r < norms.size(); ++r) {
     const float* v = of_exemplar.at(static_cast<std::int64_t>(r));
     norms[r] = t * t * std::inner_product(v, v + of_exemplar.dimensions, v, 0.0f);
   }
 
+  std::vector<float> squares;  // of queries that a guide has made longer
+  if (o.guides()) {
+    squares = squares_of(of_picture);
+    const std::vector<float> of_guide = o.guided->squares(queries);
+    for (std::size_t q = 0; q < squares.size(); ++q) squares[q] += of_guide[q];
+    of_picture = o.guided->queries(std::move(of_picture), queries);
+    of_exemplar = o.guided->references(std::move(of_exemplar), references, t);
+  }
+
   float* prices = state.prices.data_ptr<float>();
   if (params_.flow_price > 0) {
     update_prices({o.places, prices}, references, of_picture, of_exemplar, norms, t,
-                  {params_.flow_price, price_spread * side, state.step == 0 ? 4 : 2},
+                  {params_.flow_price, price_spread * side, state.step == 0 ? 4 : 2, squares},
                   at_step(Stream::queries));
+    if (o.guides()) level_prices(o.like_guides, o.usable, {o.places, prices});
   }
   std::vector<float> offsets = norms;
   for (std::size_t r = 0; r < offsets.size(); ++r)
@@ -200,20 +307,38 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
   Neighbours found = nearest_references(of_picture, of_exemplar, offsets, t,
                                         at_level(params_.flow_neighbours, index));
 
-  const double remembered = params_.remembered();
-  if (remembered > 0 && state.sources.defined())
-    remember(o.exemplar, {state.sources, o.size, state.step == 0},
-             {queries, of_picture, t, {o.places, prices}}, o.axes, remembered,
-             at_step(Stream::memory), references, found);
+  const double remembered = o.fills() ? 0 : params_.remembered();
+  if (remembered > 0 && state.sources.defined()) {
+    const auto vectors_of = [&](const std::vector<PatchPlace>& places) {
+      Vectors vectors = project(o.exemplar, places, o.axes);
+      return o.guides() ? o.guided->references(std::move(vectors), places, t) : vectors;
+    };
+    const auto is_usable = [&](PatchPlace p) {
+      return !guidance_ || o.is_usable[static_cast<std::size_t>(p.y * o.places.width + p.x)] != 0;
+    };
+    remember({state.sources, o.size, state.step == 0},
+             {queries, of_picture, t, {o.places, prices}, dimensions, vectors_of, is_usable},
+             remembered, at_step(Stream::memory), references, found);
+  }
   if (remembered > 0) state.sources = sources_of(o.size, queries, references, found);
 
   of_picture = {};  // large
 
   const std::vector<float> weights = likelihoods(found, t);
-  Image goal = vote(o.size, queries, o.exemplar, references, found, weights, side, o.window);
-  if (t < bands_until) match_bands(goal, o.bands);
+  Image goal = vote(o.size, queries, o.exemplar, references, found, weights, side, o.window,
+                    o.guides() ? Agreement(GuideAgreement(o.guidance)) : Agreement());
+  if (o.fills()) {
+    at::Tensor whole = to_planes(goal);
+    keep_known(o.guidance, whole, scale_);
+    goal = to_image(whole);
+    if (t < bands_until) match_bands(goal, o.bands, o.guidance.made);
+  } else if (t < bands_until && !o.guides()) {
+    match_bands(goal, o.bands);
+  }
   state.goal = to_planes(goal);
+  if (o.fills()) keep_known(o.guidance, state.goal, scale_);
   state.picture += (state.goal - state.picture) * ((next - t) / (1 - t));
+  if (o.fills()) keep_known(o.guidance, state.picture, scale_ * next);
   state.goal /= scale_;
   if (++state.step == at_level(params_.flow_steps, index)) state.picture /= scale_;
 }

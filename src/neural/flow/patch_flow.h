@@ -8,6 +8,7 @@
 #include "core/request.h"
 #include "neural/flow/params.h"
 #include "neural/flow/periodic_part.h"
+#include "neural/guidance.h"
 
 namespace gramloom::neural {
 
@@ -33,16 +34,24 @@ struct FlowState {
 /// step, so that the picture is no copy.
 ///
 /// The picture wraps on both axes. The same bytes for any number of threads.
+///
+/// With guidance (guidance.h): patches are of usable pixels alone, and there are no courses of
+/// several exemplars or with what directs the result. A guide's values are further coordinates of
+/// the search (guided_patches.h), a pixel votes the less the less its guide is like that of its
+/// place, prices balance the use of patches of like guides, and bands are not matched. Of a fill
+/// only patches with a pixel that is made are looked for, among all of the exemplar's (up to
+/// 16384), for no price; after each step the known pixels are, without noise, what they are at that
+/// time of the flow.
 class PatchFlow {
  public:
   /// exemplar: (channels, height, width). Throws Error when it is too small.
   PatchFlow(const FlowParams& params, const at::Tensor& exemplar, const Target& target,
-            Random random);
+            Random random, const Guidance* guidance = nullptr);
   ~PatchFlow();
 
-  /// One step on an octave: octave i is 2⁻ⁱ of the whole size. On the first
-  /// step of the coarsest one there is no picture yet, on the first of another it is the coarser
-  /// one's.
+  /// One step on an octave: octave i is 2⁻ⁱ of the whole size. On the first step of the coarsest
+  /// one there is no picture yet, or, of a fill, that of first_fill(); on the first of another it
+  /// is the coarser one's.
   void step(FlowState& state, int octave, bool coarsest);
   /// At the end: the finest octave's picture in the target's size: whole courses are cropped, or
   /// stretched where it tiles.
@@ -51,6 +60,8 @@ class PatchFlow {
  private:
   struct Octave;
   Octave& octave(int index, bool coarsest);
+  // What the guidance says on this octave, for patches of that side.
+  void direct(Octave& octave, int side) const;
 
   FlowParams params_;
   at::Tensor exemplar_;  // of mean square 1
@@ -59,6 +70,7 @@ class PatchFlow {
   PeriodicAxis x_, y_;
   Size size_;  // of the layout: whole courses
   Random random_;
+  const Guidance* guidance_;  // of the finest octave; none: the exemplar as a whole
   std::unique_ptr<Octave> octave_;
 };
 

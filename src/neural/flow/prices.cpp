@@ -14,13 +14,30 @@ constexpr std::int64_t most_queries = 8192;  // more change no price to speak of
 constexpr double least_use = 0.05;
 constexpr double slowing = 0.7;  // of the rate from one repetition to the next
 
-Vectors some_of(const Vectors& queries, Random random) {
-  if (queries.count <= most_queries) return queries;
-  Vectors some(most_queries, queries.dimensions);
-  for (std::int64_t i = 0; i < most_queries; ++i)
-    std::copy_n(queries.at(random.below(static_cast<std::uint32_t>(queries.count))),
-                queries.dimensions, some.at(i));
-  return some;
+struct Drawn {
+  Vectors queries;
+  double squares = 0;  // summed
+};
+
+Drawn drawn_of(const Vectors& queries, const std::vector<float>& squares, Random random) {
+  Drawn drawn;
+  const auto add_square = [&](std::int64_t query) {
+    if (!squares.empty()) drawn.squares += squares[static_cast<std::size_t>(query)];
+  };
+  if (queries.count <= most_queries) {
+    drawn.queries = queries;
+    for (std::int64_t i = 0; i < queries.count; ++i) add_square(i);
+  } else {
+    drawn.queries = Vectors(most_queries, queries.dimensions);
+    for (std::int64_t i = 0; i < most_queries; ++i) {
+      const std::int64_t query = random.below(static_cast<std::uint32_t>(queries.count));
+      std::copy_n(queries.at(query), queries.dimensions, drawn.queries.at(i));
+      add_square(query);
+    }
+  }
+  if (squares.empty())
+    for (const float v : drawn.queries.values) drawn.squares += static_cast<double>(v) * v;
+  return drawn;
 }
 
 }  // namespace
@@ -28,7 +45,7 @@ Vectors some_of(const Vectors& queries, Random random) {
 void update_prices(Prices prices, const std::vector<PatchPlace>& places, const Vectors& queries,
                    const Vectors& references, const std::vector<float>& offsets, float scale,
                    const PriceSteps& steps, Random random) {
-  const Vectors some = some_of(queries, random);
+  const auto [some, squares] = drawn_of(queries, steps.squares, random);
   const auto index = [&](PatchPlace p) {
     return static_cast<std::size_t>(p.y) * static_cast<std::size_t>(prices.places.width) +
            static_cast<std::size_t>(p.x);
@@ -37,8 +54,6 @@ void update_prices(Prices prices, const std::vector<PatchPlace>& places, const V
   Image there(prices.places, 1);
   for (const PatchPlace p : places) there.pixels[index(p)] = 1;
   there = blurred(there, deviation, Tile::none);
-  double squares = 0;
-  for (const float v : some.values) squares += static_cast<double>(v) * v;
 
   double mean_distance = 0, rate = steps.rate;
   for (int i = 0; i < steps.repetitions; ++i, rate *= slowing) {

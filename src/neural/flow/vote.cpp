@@ -27,7 +27,8 @@ std::vector<float> vote_window(int side, double spread) {
 
 Image vote(Size size, const std::vector<PatchPlace>& queries, const Image& exemplar,
            const std::vector<PatchPlace>& references, const Neighbours& nearest,
-           const std::vector<float>& weights, int side, const std::vector<float>& window) {
+           const std::vector<float>& weights, int side, const std::vector<float>& window,
+           const Agreement& agreement) {
   const int channels = exemplar.channels;
   Image sum(size, channels), total(size, 1);
   // Queries by the row of the picture on which they begin.
@@ -44,7 +45,7 @@ Image vote(Size size, const std::vector<PatchPlace>& queries, const Image& exemp
           for (int dx = 0; dx < side; ++dx) {
             const int x = (place.x + dx) % size.width;
             const float in_window = window[static_cast<std::size_t>(dy * side + dx)];
-            total.at(x, static_cast<int>(y))[0] += in_window;
+            if (!agreement) total.at(x, static_cast<int>(y))[0] += in_window;
           }
           for (std::size_t j = 0; j < k; ++j) {
             const float weight = weights[q * k + j];
@@ -52,7 +53,11 @@ Image vote(Size size, const std::vector<PatchPlace>& queries, const Image& exemp
             const PatchPlace r = references[static_cast<std::size_t>(nearest.reference[q * k + j])];
             for (int dx = 0; dx < side; ++dx) {
               const int x = (place.x + dx) % size.width;
-              const float factor = weight * window[static_cast<std::size_t>(dy * side + dx)];
+              float factor = weight * window[static_cast<std::size_t>(dy * side + dx)];
+              if (agreement) {
+                factor *= agreement(x, static_cast<int>(y), r.x + dx, r.y + dy);
+                total.at(x, static_cast<int>(y))[0] += factor;
+              }
               const float* in = exemplar.at(r.x + dx, r.y + dy);
               float* out = sum.at(x, static_cast<int>(y));
               for (int c = 0; c < channels; ++c) out[c] += factor * in[c];

@@ -5,9 +5,10 @@
 namespace gramloom::neural {
 
 Loss::Loss(const NeuralParams& params, const MatchedNetwork* network, const at::Tensor& exemplar,
-           Edges exemplar_edges, const Target& target, Edges edges, Random random) {
+           Edges exemplar_edges, const Target& target, Edges edges, Random random,
+           const Guidance* guidance, const at::Tensor& nearest) {
   const c10::NoGradGuard no_gradients;
-  const LossInput input{exemplar, target, params.directions, random};
+  const LossInput input{exemplar, target, params.directions, random, guidance, nearest};
   std::vector<Features::Weighted> of_features;
   for_each_term(params, [&]<class Params>(const Params& term) {
     if constexpr (LooksAtNetwork<Params>)

@@ -14,7 +14,8 @@ class Loss {
   /// target: the result on this level. exemplar: (channels, height, width); its edges and those of
   /// the result are what the network sees beyond them. `network` may be null when no term needs it.
   Loss(const NeuralParams& params, const MatchedNetwork* network, const at::Tensor& exemplar,
-       Edges exemplar_edges, const Target& target, Edges edges, Random random);
+       Edges exemplar_edges, const Target& target, Edges edges, Random random,
+       const Guidance* guidance = nullptr, const at::Tensor& nearest = {});
 
   /// The loss of a picture (channels, height, width) and its gradient. Losses of one step are those
   /// of one function; a step has random directions of its own.

@@ -8,12 +8,16 @@
 
 namespace gramloom::neural {
 
+struct Guidance;
+
 /// What terms are made from, on one level.
 struct LossInput {
   const at::Tensor& exemplar;  // (channels, height, width)
   Target target;               // the result on this level
   int directions;              // NeuralParams::directions
   Random random;
+  const Guidance* guidance = nullptr;  // of this level; none: the exemplar as a whole
+  at::Tensor nearest = {};             // of a fill: nearest_places() for the largest of patch_sizes
 };
 
 /// A term of the loss that looks at the picture itself.

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "core/threads.h"
+#include "neural/loss/directed_sliced.h"
 #include "neural/loss/loss_term.h"
 #include "neural/loss/patch_sample.h"
 #include "neural/loss/patch_slopes.h"
@@ -148,6 +149,7 @@ class SlicedTerm : public PictureTerm {
 }  // namespace
 
 std::unique_ptr<PictureTerm> make_term(const SlicedParams& params, const LossInput& input) {
+  if (input.guidance) return make_directed_sliced(params, input);
   return std::make_unique<SlicedTerm>(params, input);
 }
 

@@ -1,0 +1,107 @@
+#include "classic/overlap_weighted.h"
+
+#include <algorithm>
+
+#include "core/threads.h"
+#include "signal/fourier.h"
+
+namespace gramloom {
+
+namespace {
+
+/// Blocks of about this side, or of this many patches: small ones stay in the cache, and much
+/// smaller ones would overlap for the most part.
+constexpr int block_side = 384;
+constexpr int block_patches = 4;
+
+std::size_t to_size(int value) { return static_cast<std::size_t>(value); }
+
+}  // namespace
+
+WeightedErrors::Axis WeightedErrors::cover(int exemplar, int patch) {
+  const int positions = exemplar - patch + 1;
+  const int most = std::max(block_side, block_patches * patch) - patch + 1;
+  const int blocks = (positions + most - 1) / most;
+  const int valid = (positions + blocks - 1) / blocks;
+  return {positions, valid, fast_length_up(valid + patch - 1)};
+}
+
+/// Of a plane in the upper left of a block, where all below `rows` is 0.
+cv::Mat WeightedErrors::spectrum(const cv::Mat& plane, int rows) const {
+  cv::Mat padded = cv::Mat::zeros(down_.length, across_.length, CV_32F);
+  plane.copyTo(padded({0, 0, plane.cols, plane.rows}));
+  cv::dft(padded, padded, 0, rows);
+  return padded;
+}
+
+WeightedErrors::WeightedErrors(const Image& exemplar, Size patch)
+    : patch_(patch),
+      across_(cover(exemplar.width, patch.width)),
+      down_(cover(exemplar.height, patch.height)) {
+  std::vector<cv::Mat> planes;
+  cv::Mat energy = cv::Mat::zeros(exemplar.height, exemplar.width, CV_32F);
+  for (int c = 0; c < exemplar.channels; ++c) {
+    cv::Mat plane = channel_plane(exemplar, c);
+    mean_.push_back(static_cast<float>(cv::mean(plane)[0]));
+    plane -= mean_.back();
+    energy += plane.mul(plane);
+    planes.push_back(plane);
+  }
+  variance_ = cv::mean(energy)[0];
+  planes.push_back(energy);
+
+  const int blocks = across_.count() * down_.count();
+  spectra_.resize(to_size(blocks) * planes.size());
+  parallel_for(blocks, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (auto block = static_cast<int>(begin); block < end; ++block) {
+      const int left = block % across_.count() * across_.valid;
+      const int top = block / across_.count() * down_.valid;
+      const cv::Rect part(left, top, std::min(across_.length, exemplar.width - left),
+                          std::min(down_.length, exemplar.height - top));
+      for (std::size_t c = 0; c < planes.size(); ++c)
+        spectra_[to_size(block) * planes.size() + c] = spectrum(planes[c](part), part.height);
+    }
+  });
+}
+
+void WeightedErrors::add_to(std::vector<float>& errors, const Image& patch,
+                            const std::vector<float>& weights, float factor) const {
+  const cv::Mat weight(patch.height, patch.width, CV_32F, const_cast<float*>(weights.data()));
+  std::vector<cv::Mat> wanted;  // as spectra_: −2 · weight · patch, and the weight; empty: all 0
+  double patch_energy = 0;
+  for (int c = 0; c < patch.channels; ++c) {
+    cv::Mat plane = channel_plane(patch, c);
+    plane -= mean_[to_size(c)];
+    const cv::Mat weighted = weight.mul(plane);
+    patch_energy += weighted.dot(plane);
+    wanted.push_back(cv::countNonZero(weighted) > 0 ? spectrum(weighted * -2, patch.height)
+                                                    : cv::Mat());
+  }
+  wanted.push_back(spectrum(weight, patch.height));
+
+  parallel_for(across_.count() * down_.count(), 1, [&](std::int64_t begin, std::int64_t end) {
+    cv::Mat sum, product;
+    for (auto block = static_cast<int>(begin); block < end; ++block) {
+      const int left = block % across_.count() * across_.valid;
+      const int top = block / across_.count() * down_.valid;
+      const int rows = std::min(down_.valid, down_.positions - top);
+      const int columns = std::min(across_.valid, across_.positions - left);
+      const std::size_t first = to_size(block) * wanted.size();
+      cv::mulSpectrums(spectra_[first + wanted.size() - 1], wanted.back(), sum, 0, true);
+      for (std::size_t c = 0; c + 1 < wanted.size(); ++c) {
+        if (wanted[c].empty()) continue;
+        cv::mulSpectrums(spectra_[first + c], wanted[c], product, 0, true);
+        sum += product;
+      }
+      cv::dft(sum, sum, cv::DFT_INVERSE | cv::DFT_SCALE | cv::DFT_REAL_OUTPUT, rows);
+      for (int v = 0; v < rows; ++v) {
+        const float* from = sum.ptr<float>(v);
+        float* to = errors.data() + to_size(top + v) * to_size(across_.positions) + left;
+        for (int u = 0; u < columns; ++u)
+          to[u] += factor * std::max(0.0f, from[u] + static_cast<float>(patch_energy));
+      }
+    }
+  });
+}
+
+}  // namespace gramloom

@@ -1,0 +1,82 @@
+#include "jobs/fill_picture.h"
+
+#include "io/json_text.h"
+#include "jobs/input_files.h"
+#include "jobs/loaded_request.h"
+#include "jobs/machine.h"
+#include "jobs/memory.h"
+#include "jobs/plan.h"
+#include "jobs/protected_files.h"
+#include "jobs/settings.h"
+
+namespace gramloom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* mark = "gramloom:filled";
+
+// A text as TOML writes it; its basic strings are JSON's.
+std::string quoted(const std::string& text) { return Json(text).dump(); }
+
+std::string quoted_path(const fs::path& file) {
+  return quoted(fs::absolute(file).lexically_normal().string());
+}
+
+void check_output_file(const FillWork& work, const Config& config) {
+  try {
+    stored_type(work.output.extension().string(), PixelType::uint8);
+    check_replaced(work.output, ProtectedFiles(input_files(config)), mark);
+  } catch (const Error& error) {
+    throw ConfigError("fill: {}", error.what());
+  }
+}
+
+}  // namespace
+
+std::string config_of(const FillWork& work) {
+  std::string text =
+      fmt::format("seeds = [{}]\n\n[fill]\nimage = {}\n", work.seed, quoted_path(work.picture));
+  if (work.mask == "alpha")
+    text += "mask = \"alpha\"\n";
+  else if (!work.mask.empty())
+    text += fmt::format("mask = {}\n", quoted_path(work.mask));
+  if (work.seamless != Tile::none)
+    text += fmt::format("seamless = \"{}\"\n", to_word(work.seamless));
+  if (work.band > 0) text += fmt::format("band = {}\n", work.band);
+  if (!work.extend.empty()) text += fmt::format("extend = [{}]\n", fmt::join(work.extend, ", "));
+  if (!work.from.empty()) {
+    text += "\n[[exemplar]]\nname = \"from\"\nimages = [";
+    for (std::size_t i = 0; i < work.from.size(); ++i)
+      text += fmt::format("{}{}", i > 0 ? ", " : "", quoted_path(work.from[i]));
+    text += "]\n";
+  }
+  return text + fmt::format("\n[[method]]\nname = {0}\nkind = {0}\n", quoted(work.method));
+}
+
+std::vector<std::string> fill_picture(const FillWork& work, const Control& control) {
+  Config config = parse_config(config_of(work), "fill");
+  check_output_file(work, config);
+  const Plan plan = make_plan(config);
+  const PlannedJob& planned = plan.jobs.front();
+  std::string refusal = planned.error;
+  if (refusal.empty()) refusal = memory_refusal(config, plan, planned, available_memory());
+  if (!refusal.empty()) throw ConfigError("fill {}: {}", work.picture.string(), refusal);
+
+  LoadedRequest loaded = load_request(config, 0);
+  const std::vector<ExemplarFile> files = std::move(loaded.files);
+  const Texture texture = run_method(config.methods.front().method,
+                                     {std::move(loaded.exemplars), std::move(loaded.target),
+                                      Random(static_cast<std::uint64_t>(work.seed))},
+                                     control);
+  Metadata metadata = std::move(loaded.metadata);
+  metadata[mark] = version();
+  std::vector<std::string> notes = std::move(loaded.notes);
+  for (const std::string& note :
+       write_image(work.output, texture.image, files.front().encoding, metadata))
+    notes.push_back(fmt::format("{}: {}", work.output.filename().string(), note));
+  return notes;
+}
+
+}  // namespace gramloom

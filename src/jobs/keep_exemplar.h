@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/request.h"
+#include "jobs/config.h"
+#include "jobs/exemplar.h"
+
+namespace gramloom {
+
+/// Writes what a folder keeps of an exemplar beside its results: its pictures and their maps, which
+/// parts of them may be used and their guides; and of the texture the guide, the weights, and what
+/// was to be filled. They are called "exemplar" + extension and "exemplar_"<map> + extension in
+/// `folder`; of further pictures "exemplar_picture2" and "exemplar_picture2_"<map>;
+/// "exemplar_usable.png" and "exemplar_guide.png" with the same numbers; "target_guide.png",
+/// "target_weights.png", "target_mask.png". Guides and weights are shown in colours, one for each
+/// label or picture. Throws Error.
+void write_exemplar(const std::filesystem::path& folder, const Request& request,
+                    const std::vector<ExemplarFile>& files);
+
+/// The names, without extension, of all those files of this exemplar.
+std::vector<std::string> kept_files(const ExemplarEntry& exemplar);
+
+}  // namespace gramloom

@@ -1,0 +1,96 @@
+#include <gtest/gtest.h>
+
+#include "classic/quilting.h"
+#include "core/error.h"
+#include "core/threads.h"
+#include "directed_requests.h"
+
+namespace gramloom {
+namespace {
+
+Texture quilt(const Request& request, const QuiltingParams& params = {}) {
+  return synthesise(params, request, {});
+}
+
+TEST(DirectedQuilting, FillsWhatRepeatsExactlyAndKeepsTheRest) {
+  for (const Image& picture : {stripes(96, 80, 8), chessboard(96, 80, 5), bricks(96, 80)}) {
+    Image hole = rectangle(picture.size(), 30, 20, 26, 22, 1);
+    for (int y = 60; y < 80; ++y)
+      for (int x = 80; x < 96; ++x) *hole.at(x, y) = 1;  // at the corner
+    const Texture result = quilt(fill_request(picture, hole));
+    EXPECT_EQ(different(result.image, picture, hole, false), 0);
+    EXPECT_EQ(different(result.image, picture, hole, true), 0);
+  }
+}
+
+TEST(DirectedQuilting, FillsNaturalPicturesFromUsablePixelsAlone) {
+  const Image picture = blobs(90, 70, 3, 5);
+  Image hole = rectangle(picture.size(), 10, 12, 30, 20, 1);
+  for (int y = 0; y < 70; ++y)
+    for (int x = 0; x < 90; ++x)
+      if (std::hypot(x - 65, y - 45) < 14) *hole.at(x, y) = 1;
+  for (const int feather : {0, 2}) {
+    const Request request = fill_request(picture, hole);
+    const Texture result = quilt(request, {.feather = feather});
+    EXPECT_EQ(different(result.image, picture, hole, false), 0);
+    EXPECT_EQ(masked_sources(result, request), 0);
+    if (feather > 0) continue;
+    const Image copied = arranged(result.source, request.exemplars);
+    EXPECT_EQ(different(result.image, copied, hole, true), 0);
+  }
+}
+
+TEST(DirectedQuilting, FillsAcrossEdgesThatMeet) {
+  const Image picture = chessboard(80, 60, 5);
+  Image hole = rectangle(picture.size(), 72, 0, 8, 60, 1);
+  Request request = fill_request(picture, hole);
+  request.target.tile = Tile::x;
+  EXPECT_EQ(different(quilt(request).image, picture, hole, true), 0);
+}
+
+TEST(DirectedQuilting, NeverUsesMaskedPixels) {
+  Request request{{{blobs(80, 64, 2, 3)}}, {{100, 90}, Tile::both}, Random(2)};
+  request.exemplars[0].mask = rectangle({80, 64}, 20, 10, 25, 30, 0);
+  EXPECT_EQ(masked_sources(quilt(request), request), 0);
+  // A piece smaller than a patch of that size would be.
+  request.exemplars[0].mask = rectangle({80, 64}, 60, 40, 12, 12, 1);
+  EXPECT_EQ(masked_sources(quilt(request), request), 0);
+}
+
+TEST(DirectedQuilting, HonoursLabels) {
+  const Request request = label_request({100, 90});
+  EXPECT_GE(honoured(quilt(request), request), 0.999);
+}
+
+TEST(DirectedQuilting, UsesEveryExemplarAndMixesByWeights) {
+  Request request{{{blobs(64, 50, 3, 1)}, {blobs(48, 60, 3, 2)}}, {{160, 120}}, Random(3)};
+  const auto free = shares(quilt(request), 2);
+  EXPECT_GT(free[0], 0.25);
+  EXPECT_GT(free[1], 0.25);
+  request.target.weights = Image({160, 120}, 2);
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x) request.target.weights.at(x, y)[x < 80 ? 0 : 1] = 1;
+  request.target.guide_weight = Image(1, 1, 1, 10.0f);
+  const Texture mixed = quilt(request);
+  int right = 0;
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x) right += mixed.source.at(x, y)->exemplar == (x < 80 ? 0u : 1u);
+  EXPECT_GE(right, 0.99 * 160 * 120);
+}
+
+TEST(DirectedQuilting, AnyNumberOfThreadsGivesTheSameBytes) {
+  Request request = label_request({90, 80});
+  request.target.mask = rectangle({90, 80}, 10, 10, 60, 50, 1);
+  request.target.known = blobs(90, 80, 3, 9);
+  const int before = thread_count();
+  set_thread_count(1);
+  const Texture one = quilt(request);
+  set_thread_count(5);
+  const Texture five = quilt(request);
+  set_thread_count(before);
+  EXPECT_EQ(one.image, five.image);
+  EXPECT_EQ(one.source.pixels, five.source.pixels);
+}
+
+}  // namespace
+}  // namespace gramloom
