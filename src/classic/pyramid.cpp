@@ -1,14 +1,17 @@
 #include "classic/pyramid.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 #include <vector>
 
+#include "classic/pyramid_blend.h"
 #include "classic/pyramid_statistics.h"
 #include "core/threads.h"
 #include "signal/fourier.h"
 #include "signal/layer_axes.h"
 #include "signal/steerable_pyramid.h"
+#include "signal/united.h"
 
 namespace gramloom {
 
@@ -92,18 +95,16 @@ Size period_of(const Request& request) {
   return period;
 }
 
-}  // namespace
+using Report = std::function<void()>;  // called after each round of each channel
 
-Texture synthesise(const PyramidParams& params, const Request& request, const Control& control) {
-  check_request<PyramidParams>(request);
-  const Target& target = request.target;
-  const int channels = request.exemplars.front().image.channels;
+/// A texture of the exemplars with these shares (see PyramidStatistics).
+Image make_texture(const PyramidParams& params, const Request& request,
+                   const std::vector<Exemplar>& exemplars, const std::vector<double>& shares,
+                   const Report& report) {
+  const int channels = exemplars.front().image.channels;
   const Size period = period_of(request);
-  const std::int64_t steps = std::int64_t{channels} * params.iterations;
-  control.step(0, steps);
-
-  const int levels = usable_levels(params.levels, request.exemplars, period);
-  const PyramidStatistics statistics(request, period, levels, params.orientations);
+  const int levels = usable_levels(params.levels, exemplars, period);
+  const PyramidStatistics statistics(exemplars, shares, levels, params.orientations);
   const auto to = steerable_pyramid(period, levels, params.orientations);
   const LayerAxes& layers = statistics.axes();
   std::vector<cv::Mat> planes;
@@ -114,15 +115,15 @@ Texture synthesise(const PyramidParams& params, const Request& request, const Co
     if (!flat) {
       histograms = statistics.of_axis(c);
       plane = white_noise(period, request.random.stream(static_cast<std::uint64_t>(c)));
-      statistics.match_noise(plane, histograms);
+      statistics.match_plane(plane, histograms);
     }
     for (int i = 0; i < params.iterations; ++i) {
       if (!flat) match(plane, to, statistics, histograms);
-      control.step(std::int64_t{c} * params.iterations + i + 1, steps);
+      report();
     }
     planes.push_back(plane);
   }
-  Image result(target.size, channels);
+  Image result(request.target.size, channels);
   for (int c = 0; c < channels; ++c) {
     cv::Mat& plane = planes[static_cast<std::size_t>(c)];
     if (!plane.empty()) set_channel(result, c, plane);
@@ -130,7 +131,40 @@ Texture synthesise(const PyramidParams& params, const Request& request, const Co
   }
   result = unwhitened(result, layers);
   statistics.match_channels(result);
-  return {std::move(result), {}};
+  return result;
+}
+
+std::vector<double> shares_at(const Image& weights, int x, int y) {
+  const float* here = map_at(weights, x, y);
+  std::vector<double> shares(here, here + weights.channels);
+  double sum = 0;
+  for (const double share : shares) sum += share;
+  for (double& share : shares) share /= sum;
+  return shares;
+}
+
+}  // namespace
+
+Texture synthesise(const PyramidParams& params, const Request& request, const Control& control) {
+  check_request<PyramidParams>(request);
+  const std::vector<Exemplar>& exemplars = request.exemplars;
+  const Image& weights = request.target.weights;
+  const bool weighed = exemplars.size() > 1 && !weights.empty();
+  const bool everywhere = weights.size() == Size{1, 1};
+  const std::size_t textures = weighed && !everywhere ? exemplars.size() : 1;
+  const std::int64_t steps = std::int64_t{exemplars.front().image.channels} * params.iterations *
+                             static_cast<std::int64_t>(textures);
+  std::int64_t step = 0;
+  control.step(step, steps);
+  const auto report = [&] { control.step(++step, steps); };
+  if (textures == 1) {
+    const std::vector<double> shares = weighed ? shares_at(weights, 0, 0) : std::vector<double>{};
+    return {make_texture(params, request, exemplars, shares, report), {}};
+  }
+  std::vector<Image> each;
+  for (const Exemplar& exemplar : exemplars)
+    each.push_back(make_texture(params, request, {exemplar}, {}, report));
+  return {blended_by_weights(each, weights), {}};
 }
 
 Cost estimate(const PyramidParams& params, const RequestSize& request) {
@@ -144,14 +178,16 @@ Cost estimate(const PyramidParams& params, const RequestSize& request) {
               std::max(period.height, exemplar.size.height)};
   }
   const double out = static_cast<double>(period.width) * period.height;
-  const double mixes = request.weights ? 1.0 * static_cast<double>(request.exemplars.size()) : 0;
+  // With weights perhaps one texture for each exemplar.
+  const double textures = request.weights ? static_cast<double>(request.exemplars.size()) : 1;
   // Samples of all bands, in images: level 0 and the high-pass in full, a quarter a level down.
   const double bands = params.orientations * 4.0 / 3 + 1.1;
   const auto in_flight = static_cast<double>(bands_at_once());
   // Filters 2 bytes a sample; the spectrum, the sum and matched bands 4 each; bands in flight with
   // what sorting needs 14.
-  return {4 * channels * 2 * (in + out) + out * (8 + 2 * bands + (18 + 4 * mixes) * in_flight),
-          channels * params.iterations * 3e-8 * bands * out};
+  return {4 * channels * 2 * (in + out) + out * (8 + 2 * bands + 18 * in_flight) +
+              (textures - 1) * 4 * channels * out,
+          textures * channels * params.iterations * 3e-8 * bands * out};
 }
 
 }  // namespace gramloom

@@ -24,7 +24,9 @@ namespace gramloom {
 /// colours: the PCA is each layer's own, and what colours tell of a map, linearly, it has of the
 /// colours that were made (signal/layer_axes.h): the colours are the same with maps and without.
 ///
-/// Several exemplars, masks and mixing by weights: see classic/pyramid_statistics.h.
+/// Several exemplars, masks and mixing by weights that are everywhere the same: see
+/// classic/pyramid_statistics.h. Weights that change from place to place blend textures of each
+/// exemplar that were made of the same noise: classic/pyramid_blend.h.
 struct PyramidParams {
   static constexpr std::string_view kind = "pyramid";
   static constexpr std::string_view summary =

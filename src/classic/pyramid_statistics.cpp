@@ -1,13 +1,12 @@
 #include "classic/pyramid_statistics.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "core/threads.h"
 #include "signal/fourier.h"
 #include "signal/histogram_match.h"
 #include "signal/quantile.h"
-#include "signal/sort.h"
 #include "signal/united.h"
 
 namespace gramloom {
@@ -53,11 +52,10 @@ Image joined_pixels(const std::vector<Exemplar>& exemplars, bool centred) {
   return image;
 }
 
-LayerAxes axes_of(const Request& request, bool mixes) {
-  const Exemplar& first = request.exemplars.front();
-  if (request.exemplars.size() == 1 && first.mask.empty())
-    return layer_axes(first.image, first.layers);
-  return layer_axes(joined_pixels(request.exemplars, mixes), first.layers);
+LayerAxes axes_of(const std::vector<Exemplar>& exemplars, bool mixes) {
+  const Exemplar& first = exemplars.front();
+  if (exemplars.size() == 1 && first.mask.empty()) return layer_axes(first.image, first.layers);
+  return layer_axes(joined_pixels(exemplars, mixes), first.layers);
 }
 
 /// The samples of a plane on some grid over the exemplar whose place may be used; all where there
@@ -78,20 +76,6 @@ void append(std::vector<float>& to, const std::vector<float>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-struct Moments {
-  double mean = 0;
-  double deviation = 0;
-};
-
-Moments moments_of(const std::vector<float>& values) {
-  Moments m;
-  const auto count = static_cast<double>(values.size());
-  for (const float v : values) m.mean += double{v} / count;
-  for (const float v : values) m.deviation += (double{v} - m.mean) * (double{v} - m.mean) / count;
-  m.deviation = std::sqrt(m.deviation);
-  return m;
-}
-
 std::vector<float> channel_values(const Image& image, int channel) {
   std::vector<float> values;
   for (std::size_t i = static_cast<std::size_t>(channel); i < image.pixels.size();
@@ -102,13 +86,12 @@ std::vector<float> channel_values(const Image& image, int channel) {
 
 }  // namespace
 
-PyramidStatistics::PyramidStatistics(const Request& request, Size period, int levels,
-                                     int orientations)
-    : request_(request),
-      period_(period),
-      mixes_(request.exemplars.size() > 1 && !request.target.weights.empty()),
-      axes_(axes_of(request, mixes_)) {
-  for (const Exemplar& exemplar : request.exemplars)
+PyramidStatistics::PyramidStatistics(const std::vector<Exemplar>& exemplars,
+                                     std::vector<double> shares, int levels, int orientations)
+    : exemplars_(exemplars),
+      shares_(std::move(shares)),
+      axes_(axes_of(exemplars, !shares_.empty())) {
+  for (const Exemplar& exemplar : exemplars)
     parts_.push_back(
         {exemplar,
          whitened(exemplar.mask.empty() ? exemplar.image : extended(exemplar.image, exemplar.mask),
@@ -135,7 +118,7 @@ std::vector<PyramidHistograms> PyramidStatistics::of_axis(int axis) const {
   std::vector<PyramidHistograms> result;
   for (const Part& part : parts_) {
     PyramidHistograms own = analyse(part, axis);
-    if (mixes_ || result.empty()) {
+    if (!shares_.empty() || result.empty()) {
       result.push_back(std::move(own));
       continue;
     }
@@ -155,77 +138,43 @@ std::vector<PyramidHistograms> PyramidStatistics::of_axis(int axis) const {
   return result;
 }
 
-/// `values` of a grid that covers this area, from the target's first pixel on.
-void PyramidStatistics::match(std::span<float> values, Size grid, Size area, const Sorted& sorted,
-                              bool noise) const {
-  if (!mixes_) {
+void PyramidStatistics::match(std::span<float> values, const Sorted& sorted) const {
+  if (shares_.empty()) {
     match_values(values, *sorted.front());
     return;
   }
-  const Image& weights = request_.target.weights;
-  const Size target = request_.target.size;
-  std::vector<Moments> moments;
-  for (const std::vector<float>* own : sorted) moments.push_back(moments_of(*own));
-  std::vector<float> shares(values.size() * sorted.size());  // [value][exemplar]
-  std::vector<float> level(values.begin(), values.end());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto x = static_cast<int>(i) % grid.width, y = static_cast<int>(i) / grid.width;
-    const float* here = map_at(weights, std::min(x * area.width / grid.width, target.width - 1),
-                               std::min(y * area.height / grid.height, target.height - 1));
-    float* share = shares.data() + i * sorted.size();
-    float sum = 0;
-    for (std::size_t e = 0; e < sorted.size(); ++e) sum += here[e];
-    double mean = 0, deviation = 0;
-    for (std::size_t e = 0; e < sorted.size(); ++e) {
-      share[e] = here[e] / sum;
-      mean += double{share[e]} * moments[e].mean;
-      deviation += double{share[e]} * moments[e].deviation;
-    }
-    if (!noise)
-      level[i] = deviation > 0 ? static_cast<float>((double{level[i]} - mean) / deviation) : 0;
-  }
-  Sorter sorter;
-  const auto ranked = sorter.rank(level);
+  std::vector<float> mixed(values.size());
   std::vector<Quantiles> quantiles;
-  for (const std::vector<float>* own : sorted) quantiles.emplace_back(*own, ranked.size());
-  for (std::size_t rank = 0; rank < ranked.size(); ++rank) {
-    const float* share = shares.data() + ranked[rank].place * sorted.size();
+  for (const std::vector<float>* own : sorted) quantiles.emplace_back(*own, mixed.size());
+  for (std::size_t rank = 0; rank < mixed.size(); ++rank) {
     double value = 0;
-    for (std::size_t e = 0; e < sorted.size(); ++e)
-      if (share[e] > 0) value += double{share[e]} * quantiles[e](rank);
-    values[ranked[rank].place] = static_cast<float>(value);
+    for (std::size_t e = 0; e < shares_.size(); ++e) value += shares_[e] * quantiles[e](rank);
+    mixed[rank] = static_cast<float>(value);
   }
-}
-
-void PyramidStatistics::match_noise(cv::Mat& plane,
-                                    const std::vector<PyramidHistograms>& histograms) const {
-  Sorted sorted;
-  for (const PyramidHistograms& own : histograms) sorted.push_back(&own.pixels);
-  match(values_of(plane), {plane.cols, plane.rows}, period_, sorted, true);
+  match_values(values, mixed);
 }
 
 void PyramidStatistics::match_plane(cv::Mat& plane,
                                     const std::vector<PyramidHistograms>& histograms) const {
   Sorted sorted;
   for (const PyramidHistograms& own : histograms) sorted.push_back(&own.pixels);
-  match(values_of(plane), {plane.cols, plane.rows}, period_, sorted, false);
+  match(values_of(plane), sorted);
 }
 
 void PyramidStatistics::match_band(cv::Mat& band, const std::vector<PyramidHistograms>& histograms,
                                    std::size_t index) const {
   Sorted sorted;
   for (const PyramidHistograms& own : histograms) sorted.push_back(&own.bands[index]);
-  match(values_of(band), {band.cols, band.rows}, period_, sorted, false);
+  match(values_of(band), sorted);
 }
 
 void PyramidStatistics::match_channels(Image& image) const {
   const auto channels = static_cast<std::size_t>(image.channels);
   std::vector<Image> pixels;  // of each exemplar, or of all
-  if (mixes_)
-    for (const Exemplar& exemplar : request_.exemplars)
-      pixels.push_back(joined_pixels({exemplar}, false));
+  if (shares_.empty())
+    pixels.push_back(joined_pixels(exemplars_, false));
   else
-    pixels.push_back(joined_pixels(request_.exemplars, false));
+    for (const Exemplar& exemplar : exemplars_) pixels.push_back(joined_pixels({exemplar}, false));
   parallel_for(image.channels, 1, [&](std::int64_t begin, std::int64_t end) {
     for (auto c = static_cast<int>(begin); c < end; ++c) {
       std::vector<std::vector<float>> own;
@@ -233,7 +182,7 @@ void PyramidStatistics::match_channels(Image& image) const {
       for (const Image& part : pixels) own.push_back(sorted_values(channel_values(part, c)));
       for (const std::vector<float>& values : own) sorted.push_back(&values);
       std::vector<float> values = channel_values(image, c);
-      match(values, image.size(), image.size(), sorted, false);
+      match(values, sorted);
       for (std::size_t i = 0; i < values.size(); ++i)
         image.pixels[i * channels + static_cast<std::size_t>(c)] = values[i];
     }

@@ -17,27 +17,25 @@ struct PyramidHistograms {
 };
 
 /// What a pyramid's texture is to have: the histograms of one exemplar, of several as if they were
-/// one, or those of several mixed by weights.
+/// one, or those of several mixed by weights that are everywhere the same.
 ///
 /// Only usable pixels count: of bands those whose place is usable. Masked places hold the nearest
 /// usable pixel's values while the bands are made. Axes are those of all usable pixels; where they
 /// are mixed, each exemplar's less its mean.
-/// Mixed, quantile functions are averaged by the weights of each place: the barycentre of
-/// distributions of one dimension (Rabin, Peyré, Delon, Bernot 2012, "Wasserstein barycenter and
-/// its application to texture mixing"). Weights may change from place to place: so values are
-/// ranked less the mean and over the deviation that their place is to have.
+/// Mixed, quantile functions are averaged: the barycentre of distributions of one dimension (Rabin,
+/// Peyré, Delon, Bernot 2012, "Wasserstein barycenter and its application to texture mixing").
 class PyramidStatistics {
  public:
-  /// Keeps the request's address. period: the size of planes that are given histograms.
-  PyramidStatistics(const Request& request, Size period, int levels, int orientations);
+  /// Keeps the exemplars' address. shares: of each exemplar, their sum 1; empty: they are one.
+  PyramidStatistics(const std::vector<Exemplar>& exemplars, std::vector<double> shares, int levels,
+                    int orientations);
 
   const LayerAxes& axes() const { return axes_; }
 
   /// Of one axis: one set, or one an exemplar where these are mixed.
   std::vector<PyramidHistograms> of_axis(int axis) const;
 
-  /// Gives a plane (of noise: only the order of its values counts), or a band of it, its histogram.
-  void match_noise(cv::Mat& plane, const std::vector<PyramidHistograms>& histograms) const;
+  /// Gives a plane, or a band of it, its histogram.
   void match_plane(cv::Mat& plane, const std::vector<PyramidHistograms>& histograms) const;
   void match_band(cv::Mat& band, const std::vector<PyramidHistograms>& histograms,
                   std::size_t index) const;
@@ -53,11 +51,10 @@ class PyramidStatistics {
   using Sorted = std::vector<const std::vector<float>*>;
 
   PyramidHistograms analyse(const Part& part, int axis) const;
-  void match(std::span<float> values, Size grid, Size area, const Sorted& sorted, bool noise) const;
+  void match(std::span<float> values, const Sorted& sorted) const;
 
-  const Request& request_;
-  Size period_;
-  bool mixes_;
+  const std::vector<Exemplar>& exemplars_;
+  std::vector<double> shares_;
   LayerAxes axes_;
   std::vector<Part> parts_;
 };
