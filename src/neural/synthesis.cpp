@@ -109,7 +109,7 @@ int directed_levels(const NeuralParams& params, const Guidance& guidance, Size e
   };
   while (levels > 1 && !has_patches(levels - 1)) --levels;
   if (!guidance.fills()) return levels;
-  const double wide = thickness(guidance.made);
+  const double wide = std::ranges::max(steps_to_known(guidance.made));
   const auto is_narrow = [&](int level) {
     return wide * level_size(params, exemplar, level).width / exemplar.width <= narrow;
   };
