@@ -95,7 +95,7 @@ Cost estimate(const NeuralParams& asked, const RequestSize& request) {
   const Size exemplar = smallest_exemplar(request);
   const int channels = request.exemplars.front().channels;
   const Target target{request.size, request.tile};
-  NeuralParams params = directed_settings(asked, request);
+  NeuralParams params = directed_settings(asked, request, false);
   params.layout = layout_by_size(params, exemplar, target);
   check_possible(params, request);
   const Size canvas = request.known ? target.size : canvas_size(params, target);

@@ -101,6 +101,24 @@ Guidance scaled(const Guidance& finest, Size exemplar, Size result) {
   return g;
 }
 
+Guidance with_shares_as_guide(Guidance guidance) {
+  if (!guidance.mixes()) return guidance;
+  const auto joined = [](const Image& guide, const Image& shares) {
+    Image result(shares.size(), guide.channels + shares.channels);
+    for (int y = 0; y < result.height; ++y)
+      for (int x = 0; x < result.width; ++x) {
+        float* to = result.at(x, y);
+        if (!guide.empty()) to = std::copy_n(guide.at(x, y), guide.channels, to);
+        std::copy_n(shares.at(x, y), shares.channels, to);
+      }
+    return result;
+  };
+  if (!guidance.guides()) guidance.guide_weight = Image(guidance.shares.size(), 1, 1.0f);
+  guidance.guide = joined(guidance.guide, guidance.shares);
+  guidance.exemplar_guide = joined(guidance.exemplar_guide, guidance.member);
+  return guidance;
+}
+
 Image scaled_mask(const Image& mask, Size size) {
   Image result(size, 1, 1.0f);
   for (int y = 0; y < size.height; ++y)

@@ -42,6 +42,10 @@ std::optional<Guidance> guidance_of(const Request& request, const United& united
 /// all pixels are that lie under it.
 Guidance scaled(const Guidance& finest, Size exemplar, Size result);
 
+/// The same with weights as a guide, too: shares of the exemplars are to be like which one a patch
+/// is of. For layouts, whose patches are of one exemplar or the other.
+Guidance with_shares_as_guide(Guidance guidance);
+
 /// The mask of what may be used at that size.
 Image scaled_mask(const Image& mask, Size size);
 

@@ -255,7 +255,7 @@ Regions PatchFlow::regions_of(Octave& o) const {
 }
 
 void PatchFlow::direct(Octave& o, int side) const {
-  o.guidance = scaled(*guidance_, o.exemplar.size(), o.size);
+  o.guidance = with_shares_as_guide(scaled(*guidance_, o.exemplar.size(), o.size));
   for (const auto& of_exemplar : usable_places(o.guidance, o.exemplar.size(), side))
     o.usable.insert(o.usable.end(), of_exemplar.begin(), of_exemplar.end());
   const auto at = [](PatchPlace p, int width) {
