@@ -27,6 +27,10 @@ struct GrowthPlaces {
 /// Up to `most` of the usable origins.
 GrowthPlaces growth_places(const PatchSource& source, std::size_t most);
 
+/// Makes a hole without known pixels as a quilt (quilting.h), which keeps rows and grids straight:
+/// sets its canvas and the origins of its patches. false: the source is too small for its patches.
+bool quilt(PatchHole& hole, std::size_t level, const PatchSource& source, Random random);
+
 /// Makes the pixels of a hole by growing from its border inward, as Criminisi, Pérez, Toyama 2004
 /// ("Region filling and object removal by exemplar-based image inpainting"): the patch whose known
 /// pixels are most and differ most comes next, and the rest of it is copied from where those are

@@ -68,6 +68,14 @@ struct Material {
   std::vector<PatchSource> levels;
 };
 
+/// Where each exemplar begins on a level; nothing for a single one.
+std::vector<int> parts_of(const United& united, int exemplars, int level) {
+  std::vector<int> parts;
+  for (int x = 0; exemplars > 1 && std::ssize(parts) < exemplars; ++x)
+    if (united.source(x << level, 0).exemplar >= parts.size()) parts.push_back(x);
+  return parts;
+}
+
 /// Usable origins of each exemplar on a level.
 std::vector<int> count_usable(const PatchSource& source, const United& united, int exemplars,
                               int level) {
@@ -106,6 +114,7 @@ Material make_material(const PatchmatchParams& params, double structure, const U
   Image mask = exemplar.mask;
   const Size patch{field_patch, field_patch};
   if (!mask.empty()) source.usable = usable_origins(mask, source.features.size(), patch);
+  source.parts = parts_of(united, exemplars, 0);
   const std::vector<int> finest = count_usable(source, united, exemplars, 0);
   if (std::ranges::all_of(finest, [](int n) { return n == 0; }))
     throw Error("patchmatch copies patches of {}×{} pixels: the exemplars' masks leave none whole",
@@ -115,11 +124,12 @@ Material make_material(const PatchmatchParams& params, double structure, const U
   while (static_cast<int>(material.levels.size()) < count) {
     const PatchSource& finer = material.levels.back();
     PatchSource next{.features = halved(finer.features)};
+    const int level = static_cast<int>(material.levels.size());
+    next.parts = parts_of(united, exemplars, level);
     for (const Image& plane : finer.guide) next.guide.push_back(halved(plane));
     if (!mask.empty()) {
       mask = halved_mask(mask);
       next.usable = usable_origins(mask, next.features.size(), patch);
-      const int level = static_cast<int>(material.levels.size());
       if (!are_enough(finest, count_usable(next, united, exemplars, level))) break;
     }
     material.levels.push_back(std::move(next));
@@ -215,7 +225,9 @@ void start(PatchHole& hole, std::size_t level, const PatchSource& source,
     return;
   }
   enter_level(hole, level);
-  grow(hole, places, hole.levels[level].known.empty() ? growth_tolerance : 0, random);
+  const bool fills = !hole.levels[level].known.empty();
+  if (fills || !quilt(hole, level, source, random))
+    grow(hole, places, fills ? 0 : growth_tolerance, random);
   if (count_patches(hole) * area(source.origins()) < 2e7)
     search_all(hole.field, hole.canvas, hole.guide, source, nullptr);
 }

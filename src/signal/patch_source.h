@@ -15,6 +15,7 @@ struct PatchSource {
   /// What is like this goes where the canvas's guide is alike: pictures of field_features channels,
   /// of the features' size; none: anywhere.
   std::vector<Image> guide = {};
+  std::vector<int> parts = {};  // first columns of pictures side by side; none: it is one picture
   // Made once for many searches: see prepare().
   SketchScale scale = {};
   std::vector<PatchSketch> sketches = {};
