@@ -209,6 +209,18 @@ std::string required_text(const toml::table& table, std::string_view key) {
   return text;
 }
 
+fs::path read_file_or_folder(const toml::node& node, std::string_view key,
+                             const std::string& allowed) {
+  const detail::Slot slot{key, {}, node.source()};
+  const fs::path path = detail::read_string(node, slot, allowed);
+  const fs::path folder = (folder_of(slot.region) / path).lexically_normal();
+  std::error_code ignored;
+  if (!path.empty() && fs::is_directory(folder, ignored)) return folder;
+  const fs::path file = detail::read_path(node, slot, allowed);
+  if (file.empty()) fail(slot.region, "'{}' has an empty name", key);
+  return file;
+}
+
 fs::path required_folder(const toml::table& table, std::string_view key) {
   const std::string text = required_text(table, key);
   const toml::source_region& region = key_region(table, key);

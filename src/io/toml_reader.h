@@ -135,6 +135,11 @@ void read_fields(Params& params, const toml::table& table) {
 /// The text under `key`, which must be there and not empty.
 std::string required_text(const toml::table& table, std::string_view key);
 
+/// The file or the folder that `node`, a text, names; likewise relative. `allowed` is for a node of
+/// another type.
+std::filesystem::path read_file_or_folder(const toml::node& node, std::string_view key,
+                                          const std::string& allowed);
+
 /// The folder under `key`, which must be there; relative to the config's, or of --set to the
 /// current one.
 std::filesystem::path required_folder(const toml::table& table, std::string_view key);

@@ -57,8 +57,7 @@ std::vector<ExemplarPicture> read_pictures(const toml::node& node) {
     check_picture_keys(picture, *table);
     return {picture};
   }
-  picture.image = detail::read_value<fs::path>(node, {"images", {}, node.source()},
-                                               allowed_entry<ExemplarPicture>());
+  picture.image = read_file_or_folder(node, "images", allowed_entry<ExemplarPicture>());
   std::error_code ignored;
   if (!fs::is_directory(picture.image, ignored)) return {picture};
   std::vector<ExemplarPicture> pictures;

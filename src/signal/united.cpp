@@ -29,11 +29,15 @@ Size joined_size(const std::vector<Exemplar>& exemplars) {
   return size;
 }
 
-/// Weights in proportion: their sum is 1.
+/// Of the channels that tell exemplars apart: so much that the favoured one is taken however alike
+/// its neighbours are, and near equal weights what fits.
+constexpr float weight_of_shares = 2;
+
+/// Weights in proportion.
 void copy_shares(const float* weights, int count, float* to) {
   float sum = 0;
   for (int i = 0; i < count; ++i) sum += weights[i];
-  for (int i = 0; i < count; ++i) to[i] = weights[i] / sum;
+  for (int i = 0; i < count; ++i) to[i] = weight_of_shares * weights[i] / sum;
 }
 
 /// The target's guide with a channel for each exemplar's share behind it.
@@ -73,7 +77,8 @@ United::United(const Request& request) : target_guide_(&request.target.guide) {
     paste(exemplar.image, left, 0, joined_.image);
     paste(exemplar.mask.empty() ? Image(part, 1, 1.0f) : exemplar.mask, left, 0, joined_.mask);
     if (own > 0) paste(exemplar.guide, left, 0, joined_.guide);
-    if (weighed) paste(Image(part, 1, 1.0f), left, own + static_cast<int>(i), joined_.guide);
+    if (weighed)
+      paste(Image(part, 1, weight_of_shares), left, own + static_cast<int>(i), joined_.guide);
     left_.push_back(left);
     left += part.width + gap;
   }
