@@ -22,6 +22,7 @@ typedef float Pixel
     __attribute__((vector_size(field_features * sizeof(float)), aligned(4), may_alias));
 
 std::size_t to_size(int i) { return static_cast<std::size_t>(i); }
+int wrapped(int i, int length) { return (i % length + length) % length; }
 
 /// A known pixel that a place is to have: how much it counts, and where it lies from its origin.
 struct Known {
@@ -141,8 +142,8 @@ class Growth {
     return to_size(y % size_.height) * to_size(size_.width) + to_size(x % size_.width);
   }
   bool is_known(int x, int y) const {
-    if (tiles_x(hole_.field.tile)) x = (x + size_.width) % size_.width;
-    if (tiles_y(hole_.field.tile)) y = (y + size_.height) % size_.height;
+    if (tiles_x(hole_.field.tile)) x = wrapped(x, size_.width);
+    if (tiles_y(hole_.field.tile)) y = wrapped(y, size_.height);
     return x >= 0 && y >= 0 && x < size_.width && y < size_.height && left_[pixel(x, y)] == 0;
   }
 
@@ -181,7 +182,7 @@ class Growth {
   /// Adds a known pixel that lies (i, j) from a patch's first.
   void add_known(int x, int y, int i, int j, float weight, Wanted& wanted) const {
     if (!is_known(x + i, y + j)) return;
-    const int u = (x + i + size_.width) % size_.width, v = (y + j + size_.height) % size_.height;
+    const int u = wrapped(x + i, size_.width), v = wrapped(y + j, size_.height);
     wanted.pixels.push_back({*reinterpret_cast<const Pixel*>(hole_.canvas.at(u, v)), weight,
                              std::ptrdiff_t{j} * places_.features.width + i});
     wanted.weight += weight;
@@ -242,8 +243,8 @@ class Growth {
     const bool wraps_x = tiles_x(hole_.field.tile), wraps_y = tiles_y(hole_.field.tile);
     for (int v = y - border - 1; v <= y + border + 1; ++v)
       for (int u = x - border - 1; u <= x + border + 1; ++u) {
-        const int column = wraps_x ? (u + 2 * field.width * field_patch) % field.width : u;
-        const int row = wraps_y ? (v + 2 * field.height * field_patch) % field.height : v;
+        const int column = wraps_x ? wrapped(u, field.width) : u;
+        const int row = wraps_y ? wrapped(v, field.height) : v;
         if (column >= 0 && row >= 0 && column < field.width && row < field.height) ask(column, row);
       }
   }

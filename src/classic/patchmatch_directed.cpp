@@ -42,7 +42,7 @@ double area(Size size) { return static_cast<double>(size.width) * size.height; }
 /// A target that a patch fits in: what is added is made, and cut off in the end.
 Target padded(const Target& target, Size size) {
   const auto wider = [&](const Image& map) {
-    if (map.empty() || map.size() == Size{1, 1}) return map;
+    if (map.empty()) return map;
     Image result(size, map.channels);
     for (int y = 0; y < size.height; ++y)
       for (int x = 0; x < size.width; ++x)
@@ -55,7 +55,9 @@ Target padded(const Target& target, Size size) {
                 .known = wider(target.known),
                 .mask = wider(target.mask),
                 .guide = wider(target.guide),
-                .guide_weight = wider(target.guide_weight)};
+                .guide_weight = target.guide_weight.size() == Size{1, 1}
+                                    ? target.guide_weight
+                                    : wider(target.guide_weight)};
   for (int y = 0; y < size.height && !result.mask.empty(); ++y)
     for (int x = 0; x < size.width; ++x)
       if (x >= target.size.width || y >= target.size.height) *result.mask.at(x, y) = 1;
