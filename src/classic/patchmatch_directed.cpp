@@ -362,13 +362,24 @@ Texture directed_patchmatch(const PatchmatchParams& params, const Request& reque
 
 Cost estimate_directed(const PatchmatchParams& params, const RequestSize& request) {
   double samples = 0;
-  for (const ExemplarSize& exemplar : request.exemplars) samples += area(exemplar.size);
-  const int channels = request.exemplars.front().channels;
-  const double pixels = area(request.size) * request.made;
+  bool copied = request.exemplars.size() > 1;  // to one picture
+  for (const ExemplarSize& exemplar : request.exemplars) {
+    samples += area(exemplar.size);
+    copied |= exemplar.mask;
+  }
+  const double channels = request.exemplars.front().channels;
+  const double target = area(request.size), made = target * request.made;
+  const int planes = (request.exemplars.front().guide ? 1 : 0) + (request.weights ? 1 : 0);
+  // A level has a quarter of the work of the next finer one, but more iterations.
   const double iterations = params.iterations * 4.0 / 3 + more_iterations * 4.0 / 9;
-  return {
-      .bytes = area(request.size) * 4.0 * channels + pixels * 64 + samples * (64 + 4.0 * channels),
-      .seconds = pixels * iterations * (45 + 15.0 * params.tries) * 1e-9};
+  // A fill works on what is about its holes, too, and grows their first pixels.
+  const double tries = params.tries + (request.known ? more_tries : 0);
+  const double work = request.known ? 3.6 : 1.3;
+  return {.bytes = target * (request.known ? 16 + 8 * channels : 12 + 4 * channels) +
+                   made * (64 + 24.0 * planes) +
+                   samples * (52 + 24.0 * planes + (copied ? 8 : 4) * channels),
+          .seconds = made * iterations * (45 + 15 * tries) * 1e-9 * (work + 0.5 * planes) +
+                     (samples + target) * 1.1e-7};
 }
 
 }  // namespace gramloom
