@@ -91,8 +91,8 @@ struct PatchmatchParams {
 
 /// The texture. An exemplar of fewer than 16 pixels on a side is continued by mirroring.
 /// Progress counts iterations; the loss is Kwatra's robust energy on the current level.
-/// In a fill, `structure`, `uniformity` and `largest_copy` count nothing: a hole continues what is
-/// about it, to the colour, and may be one piece.
+/// In a fill `structure` counts nothing: a hole continues what is about it, to the colour. Nor do
+/// `uniformity` and `largest_copy` unless there is more to make than to copy from.
 /// Throws Error for an empty exemplar or target, or where masks leave no patch of 8×8 pixels whole;
 /// Interrupted when `control` asks to stop.
 Texture synthesise(const PatchmatchParams& params, const Request& request, const Control& control);

@@ -281,9 +281,11 @@ void optimise(const PatchmatchParams& params, Material& material, std::vector<Pa
     for_each_hole(holes, level, [&](PatchHole& hole, std::size_t i) {
       start(hole, level, source, places, random.stream(1).stream(i));
     });
-    std::optional<PatchPenalty> penalty;
-    if (!fills) penalty.emplace(holes.front().field.size, source.origins());
     const double share = usable_share(source);
+    std::optional<PatchPenalty> penalty;
+    if (!fills ||
+        (holes.size() == 1 && count_patches(holes.front()) > share * area(source.origins())))
+      penalty.emplace(holes.front().field.size, source.origins());
     for (int i = 0; i < iterations(level); ++i) {
       const Random pass = random.stream(2).stream(static_cast<std::uint64_t>(progress.step));
       std::vector<double> energies(holes.size());
@@ -323,8 +325,12 @@ Texture directed_patchmatch(const PatchmatchParams& params, const Request& reque
       tiles_x(asked.tile) ? asked.size.width : std::max(asked.size.width, smallest_side),
       tiles_y(asked.tile) ? asked.size.height : std::max(asked.size.height, smallest_side)};
   const bool fits = size == asked.size;
-  const Target wider = fits ? Target{} : padded(asked, size);
-  const Target& target = fits ? asked : wider;
+  const bool fills = std::ranges::any_of(asked.mask.pixels, [](float v) { return v <= 0.5f; });
+  Target changed;
+  if (!fits) changed = padded(asked, size);
+  if (fits && !fills) changed = asked;
+  if (!fills) changed.known = changed.mask = {};
+  const Target& target = fits && fills ? asked : changed;
   Image wider_guide;
   if (!fits) wider_guide = padded({.size = asked.size, .guide = united.guide()}, size).guide;
   const Image& guide = fits ? united.guide() : wider_guide;
