@@ -57,6 +57,18 @@ TEST(DirectedPatchmatch, FillsAcrossEdgesThatMeet) {
   Request request = fill_request(board, rectangle(board.size(), 72, 0, 8, 60, 1));
   request.target.tile = Tile::x;
   EXPECT_EQ(optimise(request).image, board);
+  // A window that reaches around a corner.
+  const Image wide = chessboard(160, 120, 5);
+  request = fill_request(wide, ring(wide.size(), 6));
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x)
+      if ((x > 12 && x < 150) || (y > 12 && y < 110)) {
+        *request.target.mask.at(x, y) = 0;
+        *request.exemplars[0].mask.at(x, y) = 1;
+        *request.target.known.at(x, y) = *request.exemplars[0].image.at(x, y) = *wide.at(x, y);
+      }
+  request.target.tile = Tile::both;
+  EXPECT_EQ(optimise(request).image, wide);
   // A frame, which makes a picture tile.
   const Image picture = blobs(90, 80, 3, 4);
   request = fill_request(picture, ring(picture.size(), 8));
