@@ -45,6 +45,18 @@ inline constexpr auto enum_names<PixelSearch> = std::to_array<std::string_view>(
 /// efros_leung search in full. Neighbourhoods that leave the exemplar are used only where no others
 /// are left (in lefebvre_hoppe's corrections the exemplar is mirrored there instead).
 ///
+/// Several exemplars and masks: pixels come from usable ones alone, at every level; neighbourhoods
+/// that reach beyond see the nearest usable pixel's values.
+/// Guide (all algorithms): the difference of guides is added to that of neighbourhoods, half of it
+/// the pixel's own and half that of means over the neighbourhood, in place of the full
+/// neighbourhoods of Hertzmann, Jacobs, Oliver, Curless, Salesin 2001, "Image analogies";
+/// lefebvre_hoppe also tries pixels drawn at random from those with the wanted guide. Weights of
+/// exemplars are a guide.
+/// Fill (not wei_levoy, whose pixels are chosen in scan order): known pixels keep their colours at
+/// every level, and those within reach of a hole are given the sources that they are most like, so
+/// that coherence continues them; holes start from blocks at a level where they are a few blocks
+/// wide. efros_leung grows from what is known.
+///
 /// Exemplars of any size from 1×1 and of 1 to 64 channels; of more than 4, the 4 principal
 /// components are compared.
 struct PixelParams {

@@ -1,15 +1,17 @@
 #include "classic/pyramid.h"
 
 #include <algorithm>
-#include <span>
+#include <functional>
 #include <utility>
 #include <vector>
 
+#include "classic/pyramid_blend.h"
+#include "classic/pyramid_statistics.h"
 #include "core/threads.h"
 #include "signal/fourier.h"
-#include "signal/histogram_match.h"
 #include "signal/layer_axes.h"
 #include "signal/steerable_pyramid.h"
+#include "signal/united.h"
 
 namespace gramloom {
 
@@ -19,8 +21,6 @@ namespace {
 /// each takes as much memory as an image. They are added in their order, whatever this number.
 std::size_t bands_at_once() { return static_cast<std::size_t>(thread_count()); }
 
-std::span<float> values_of(cv::Mat& plane) { return {plane.ptr<float>(), plane.total()}; }
-
 /// body(index) for bands first to last − 1 of a pyramid, in parallel.
 template <class Body>
 void for_each_band(std::size_t first, std::size_t last, const Body& body) {
@@ -28,23 +28,6 @@ void for_each_band(std::size_t first, std::size_t last, const Body& body) {
                [&](std::int64_t begin, std::int64_t end) {
                  for (auto b = begin; b < end; ++b) body(first + static_cast<std::size_t>(b));
                });
-}
-
-/// What is kept of one colour axis of the exemplar: its values and those of its bands, sorted.
-struct Histograms {
-  std::vector<float> pixels;
-  std::vector<std::vector<float>> bands;
-};
-
-Histograms analyse(cv::Mat plane, const SteerablePyramid& pyramid) {
-  Histograms histograms{sorted_values(values_of(plane)), {}};
-  histograms.bands.resize(pyramid.bands.size());
-  const cv::Mat coefficients = periodic_coefficients(plane);
-  for_each_band(0, pyramid.bands.size(), [&](std::size_t b) {
-    cv::Mat band = band_of(coefficients, pyramid.bands[b]);
-    histograms.bands[b] = sorted_values(values_of(band));
-  });
-  return histograms;
 }
 
 /// The columns of a plane's coefficients that count, and these as a whole matrix again.
@@ -58,7 +41,8 @@ cv::Mat whole_of(const cv::Mat& half, cv::Size size) {
 }
 
 /// One round: bands get their histograms, the image is put together again and gets its own.
-void match(cv::Mat& plane, const SteerablePyramid& pyramid, const Histograms& histograms) {
+void match(cv::Mat& plane, const SteerablePyramid& pyramid, const PyramidStatistics& statistics,
+           const std::vector<PyramidHistograms>& histograms) {
   const cv::Size size = plane.size();
   cv::Mat coefficients = half_of(fourier_coefficients(std::move(plane)));
   cv::Mat sum = cv::Mat::zeros(coefficients.size(), coefficients.type());
@@ -67,14 +51,14 @@ void match(cv::Mat& plane, const SteerablePyramid& pyramid, const Histograms& hi
     std::vector<cv::Mat> matched(last - first);
     for_each_band(first, last, [&](std::size_t b) {
       cv::Mat band = band_of(coefficients, pyramid.bands[b]);
-      match_values(values_of(band), histograms.bands[b]);
+      statistics.match_band(band, histograms, b);
       matched[b - first] = half_of(fourier_coefficients(std::move(band)));
     });
     for (std::size_t b = first; b < last; ++b) add_band(sum, matched[b - first], pyramid.bands[b]);
   }
   coefficients.release();
   plane = from_fourier_coefficients(whole_of(sum, size));
-  match_values(values_of(plane), histograms.pixels);
+  statistics.match_plane(plane, histograms);
 }
 
 /// White noise. Only the order of its values matters: they are given a histogram next.
@@ -90,70 +74,120 @@ cv::Mat white_noise(Size size, Random random) {
 }
 
 /// As many levels as wanted, while the coarsest still has a few samples on the longer side.
-int usable_levels(int wanted, Size a, Size b) {
-  const int side = std::min(std::max(a.width, a.height), std::max(b.width, b.height));
+int usable_levels(int wanted, const std::vector<Exemplar>& exemplars, Size period) {
+  int side = std::max(period.width, period.height);
+  for (const Exemplar& exemplar : exemplars)
+    side = std::min(side, std::max(exemplar.image.width, exemplar.image.height));
   int levels = 1;
   while (levels < wanted && (side >> (levels + 1)) >= 4) ++levels;
   return levels;
+}
+
+/// The size of the periodic picture to make, which no exemplar's sides exceed if it doesn't tile.
+Size period_of(const Request& request) {
+  const Target& target = request.target;
+  Size period{1, 1};
+  for (const Exemplar& exemplar : request.exemplars) {
+    const Size own{period_for(exemplar.image.width, target.size.width, tiles_x(target.tile)),
+                   period_for(exemplar.image.height, target.size.height, tiles_y(target.tile))};
+    period = {std::max(period.width, own.width), std::max(period.height, own.height)};
+  }
+  return period;
+}
+
+using Report = std::function<void()>;  // called after each round of each channel
+
+/// A texture of the exemplars with these shares (see PyramidStatistics).
+Image make_texture(const PyramidParams& params, const Request& request,
+                   const std::vector<Exemplar>& exemplars, const std::vector<double>& shares,
+                   const Report& report) {
+  const int channels = exemplars.front().image.channels;
+  const Size period = period_of(request);
+  const int levels = usable_levels(params.levels, exemplars, period);
+  const PyramidStatistics statistics(exemplars, shares, levels, params.orientations);
+  const auto to = steerable_pyramid(period, levels, params.orientations);
+  const LayerAxes& layers = statistics.axes();
+  std::vector<cv::Mat> planes;
+  for (int c = 0; c < channels; ++c) {
+    const bool flat = layers.is_flat(c);  // stays 0, as whitened
+    cv::Mat plane;
+    std::vector<PyramidHistograms> histograms;
+    if (!flat) {
+      histograms = statistics.of_axis(c);
+      plane = white_noise(period, request.random.stream(static_cast<std::uint64_t>(c)));
+      statistics.match_plane(plane, histograms);
+    }
+    for (int i = 0; i < params.iterations; ++i) {
+      if (!flat) match(plane, to, statistics, histograms);
+      report();
+    }
+    planes.push_back(plane);
+  }
+  Image result(request.target.size, channels);
+  for (int c = 0; c < channels; ++c) {
+    cv::Mat& plane = planes[static_cast<std::size_t>(c)];
+    if (!plane.empty()) set_channel(result, c, plane);
+    plane.release();
+  }
+  result = unwhitened(result, layers);
+  statistics.match_channels(result);
+  return result;
+}
+
+std::vector<double> shares_at(const Image& weights, int x, int y) {
+  const float* here = map_at(weights, x, y);
+  std::vector<double> shares(here, here + weights.channels);
+  double sum = 0;
+  for (const double share : shares) sum += share;
+  for (double& share : shares) share /= sum;
+  return shares;
 }
 
 }  // namespace
 
 Texture synthesise(const PyramidParams& params, const Request& request, const Control& control) {
   check_request<PyramidParams>(request);
-  const Image& exemplar = request.exemplars.front().image;
-  const Target& target = request.target;
-  const Size period{period_for(exemplar.width, target.size.width, tiles_x(target.tile)),
-                    period_for(exemplar.height, target.size.height, tiles_y(target.tile))};
-  const std::int64_t steps = std::int64_t{exemplar.channels} * params.iterations;
-  control.step(0, steps);
-
-  const int levels = usable_levels(params.levels, exemplar.size(), period);
-  const auto from = steerable_pyramid(exemplar.size(), levels, params.orientations);
-  const auto to = steerable_pyramid(period, levels, params.orientations);
-  const LayerAxes layers = layer_axes(exemplar, request.exemplars.front().layers);
-  const Image axes = whitened(exemplar, layers);
-  std::vector<cv::Mat> planes;
-  for (int c = 0; c < exemplar.channels; ++c) {
-    const bool flat = layers.is_flat(c);  // stays 0, as whitened
-    cv::Mat plane;
-    Histograms histograms;
-    if (!flat) {
-      histograms = analyse(channel_plane(axes, c), from);
-      plane = white_noise(period, request.random.stream(static_cast<std::uint64_t>(c)));
-      match_values(values_of(plane), histograms.pixels);
-    }
-    for (int i = 0; i < params.iterations; ++i) {
-      if (!flat) match(plane, to, histograms);
-      control.step(std::int64_t{c} * params.iterations + i + 1, steps);
-    }
-    planes.push_back(plane);
+  const std::vector<Exemplar>& exemplars = request.exemplars;
+  const Image& weights = request.target.weights;
+  const bool weighed = exemplars.size() > 1 && !weights.empty();
+  const bool everywhere = weights.size() == Size{1, 1};
+  const std::size_t textures = weighed && !everywhere ? exemplars.size() : 1;
+  const std::int64_t steps = std::int64_t{exemplars.front().image.channels} * params.iterations *
+                             static_cast<std::int64_t>(textures);
+  std::int64_t step = 0;
+  control.step(step, steps);
+  const auto report = [&] { control.step(++step, steps); };
+  if (textures == 1) {
+    const std::vector<double> shares = weighed ? shares_at(weights, 0, 0) : std::vector<double>{};
+    return {make_texture(params, request, exemplars, shares, report), {}};
   }
-  Image result(target.size, exemplar.channels);
-  for (int c = 0; c < exemplar.channels; ++c) {
-    cv::Mat& plane = planes[static_cast<std::size_t>(c)];
-    if (!plane.empty()) set_channel(result, c, plane);
-    plane.release();
-  }
-  result = unwhitened(result, layers);
-  match_histogram(result, exemplar);
-  return {std::move(result), {}};
+  std::vector<Image> each;
+  for (const Exemplar& exemplar : exemplars)
+    each.push_back(make_texture(params, request, {exemplar}, {}, report));
+  return {blended_by_weights(each, weights), {}};
 }
 
 Cost estimate(const PyramidParams& params, const RequestSize& request) {
   check_request<PyramidParams>(request);
-  const Size exemplar = request.exemplars.front().size;
   const int channels = request.exemplars.front().channels;
-  const double in = static_cast<double>(exemplar.width) * exemplar.height;
-  const double out = static_cast<double>(std::max(request.size.width, exemplar.width)) *
-                     std::max(request.size.height, exemplar.height);
+  Size period = request.size;
+  double in = 0;
+  for (const ExemplarSize& exemplar : request.exemplars) {
+    in += static_cast<double>(exemplar.size.width) * exemplar.size.height;
+    period = {std::max(period.width, exemplar.size.width),
+              std::max(period.height, exemplar.size.height)};
+  }
+  const double out = static_cast<double>(period.width) * period.height;
+  // With weights perhaps one texture for each exemplar.
+  const double textures = request.weights ? static_cast<double>(request.exemplars.size()) : 1;
   // Samples of all bands, in images: level 0 and the high-pass in full, a quarter a level down.
   const double bands = params.orientations * 4.0 / 3 + 1.1;
   const auto in_flight = static_cast<double>(bands_at_once());
   // Filters 2 bytes a sample; the spectrum, the sum and matched bands 4 each; bands in flight with
   // what sorting needs 14.
-  return {4 * channels * 2 * (in + out) + out * (8 + 2 * bands + 18 * in_flight),
-          channels * params.iterations * 3e-8 * bands * out};
+  return {4 * channels * 2 * (in + out) + out * (8 + 2 * bands + 18 * in_flight) +
+              (textures - 1) * 4 * channels * out,
+          textures * channels * params.iterations * 3e-8 * bands * out};
 }
 
 }  // namespace gramloom

@@ -23,11 +23,16 @@ namespace gramloom {
 /// histogram once more, so that it ends exactly right and in range. Maps are not mixed with
 /// colours: the PCA is each layer's own, and what colours tell of a map, linearly, it has of the
 /// colours that were made (signal/layer_axes.h): the colours are the same with maps and without.
+///
+/// Several exemplars, masks and mixing by weights that are everywhere the same: see
+/// classic/pyramid_statistics.h. Weights that change from place to place blend textures of each
+/// exemplar that were made of the same noise: classic/pyramid_blend.h.
 struct PyramidParams {
   static constexpr std::string_view kind = "pyramid";
   static constexpr std::string_view summary =
       "noise with the histograms of the exemplar's steerable pyramid (rough surfaces)";
-  static constexpr Abilities abilities{Ability::exemplar};
+  static constexpr Abilities abilities{Ability::exemplar, Ability::exemplars, Ability::mask,
+                                       Ability::mix};
   int levels = 5;
   int orientations = 4;
   int iterations = 5;

@@ -131,6 +131,7 @@ Json config_to_json(const Config& config) {
   });
   json["exemplar"] = Json::array();
   for (const auto& exemplar : config.exemplars) {
+    if (exemplar.is_filled) continue;  // [fill] says it
     Json entry{{"name", exemplar.name}};
     entry.update(fields_to_json(exemplar, folder));
     for (const ExemplarPicture& picture : exemplar.more)

@@ -95,11 +95,11 @@ Cost estimate(const NeuralParams& asked, const RequestSize& request) {
   const Size exemplar = smallest_exemplar(request);
   const int channels = request.exemplars.front().channels;
   const Target target{request.size, request.tile};
-  NeuralParams params = directed_settings(asked, request);
+  NeuralParams params = directed_settings(asked, request, false);
   params.layout = layout_by_size(params, exemplar, target);
   check_possible(params, request);
-  LossSize size =
-      loss_size(params, joined_exemplars(request), canvas_size(params, target), channels);
+  const Size canvas = request.known ? target.size : canvas_size(params, target);
+  LossSize size = loss_size(params, joined_exemplars(request), canvas, channels);
   if (request.known) size.result *= counted_share(request.made);
   const LossCost loss = loss_cost(params, size);
   const bool remembers = std::find(params.optimizer.begin(), params.optimizer.end(),

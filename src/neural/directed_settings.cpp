@@ -15,7 +15,8 @@ std::string_view directed_by(const RequestSize& request) {
   return {};
 }
 
-NeuralParams directed_settings(const NeuralParams& params, const RequestSize& request) {
+NeuralParams directed_settings(const NeuralParams& params, const RequestSize& request,
+                               bool one_mix) {
   const std::string_view what = directed_by(request);
   if (what.empty()) return params;
   NeuralParams result = params;
@@ -38,12 +39,21 @@ NeuralParams directed_settings(const NeuralParams& params, const RequestSize& re
         what);
   if (request.known && params.originality != preset.originality)
     throw ConfigError("originality has no effect with {}: all of the exemplar is looked at", what);
-  if (request.weights && params.layout == Layout::flow)
+  if (!request.weights || !one_mix) return result;
+  if (params.layout == Layout::flow)
     throw ConfigError(
-        "layout = \"flow\" cannot be honoured with weights, as its patches are of one exemplar or "
+        "layout = \"flow\" cannot be honoured with weights that are the same everywhere, as its "
+        "patches are of one exemplar or "
         "the other: leave it out");
-  if (request.weights) result.layout = Layout::noise;
+  result.layout = Layout::noise;
   return result;
+}
+
+bool has_one_mix(const Target& target) {
+  const auto channels = static_cast<std::size_t>(target.weights.channels);
+  for (std::size_t i = channels; i < target.weights.pixels.size(); ++i)
+    if (target.weights.pixels[i] != target.weights.pixels[i % channels]) return false;
+  return !target.weights.empty();
 }
 
 Size smallest_exemplar(const RequestSize& request) {

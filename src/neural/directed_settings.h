@@ -17,8 +17,12 @@ std::string_view directed_by(const RequestSize& request);
 ///   left out;
 ///   with known pixels: match_histogram, and originality, as all of the exemplar is looked at;
 ///   with a guide or weights: match_histogram;
-///   with weights: layout = "flow", whose patches are of one exemplar or the other.
-NeuralParams directed_settings(const NeuralParams& params, const RequestSize& request);
+///   with weights that are the same everywhere (one_mix): layout = "flow", whose patches are of one
+///   exemplar or the other.
+NeuralParams directed_settings(const NeuralParams& params, const RequestSize& request,
+                               bool one_mix);
+/// Whether the weights are the same everywhere.
+bool has_one_mix(const Target& target);
 
 /// The least width and the least height of the exemplars: what levels are chosen by.
 Size smallest_exemplar(const RequestSize& request);

@@ -27,19 +27,10 @@ bool is_all(const Image& mask) {
   return std::ranges::all_of(mask.pixels, [](float v) { return v > 0.5f; });
 }
 
-// 1, 0 and −1: see Guidance. Beyond the edges it is made beside pixels that are made, as rough
-// edges are to be cut off there.
-Image made_on_canvas(const Image& mask, Size canvas) {
-  const Size size = mask.size();
-  Image made = on_canvas(mask, size, canvas);
-  for (float& value : made.pixels) value = value > 0.5f ? 1.0f : 0.0f;
-  const int left = (canvas.width - size.width) / 2, top = (canvas.height - size.height) / 2;
-  for (int y = 0; y < canvas.height; ++y)
-    for (int x = 0; x < canvas.width; ++x) {
-      const bool inside = x >= left && y >= top && x < left + size.width && y < top + size.height;
-      if (float& value = *made.at(x, y); !inside && value == 0) value = -1;
-    }
-  return made;
+// 0 for 1, and the reverse.
+Image inverted(Image mask) {
+  for (float& value : mask.pixels) value = value > 0.5f ? 0.0f : 1.0f;
+  return mask;
 }
 
 // Calls f(value) for the mask's pixels under pixel (x, y) of a smaller size.
@@ -54,20 +45,6 @@ void for_each_under(const Image& mask, Size size, int x, int y, F&& f) {
   for (int v = begin(y, mask.height, size.height); v < end(y + 1, mask.height, size.height); ++v)
     for (int u = begin(x, mask.width, size.width); u < end(x + 1, mask.width, size.width); ++u)
       f(*mask.at(u, v));
-}
-
-Image scaled_made(const Image& made, Size size) {
-  Image result(size, 1);
-  for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < size.width; ++x) {
-      float least = 1, most = -1;
-      for_each_under(made, size, x, y, [&](float value) {
-        least = std::min(least, value);
-        most = std::max(most, value);
-      });
-      *result.at(x, y) = most > 0 ? 1 : least;
-    }
-  return result;
 }
 
 }  // namespace
@@ -94,12 +71,9 @@ std::optional<Guidance> guidance_of(const Request& request, const United& united
                   target.size, canvas);
   }
   if (!target.mask.empty() && !is_all(target.mask)) {
-    g.made = made_on_canvas(target.mask, canvas);
-    Image is_known(canvas, 1);
-    for (std::size_t i = 0; i < is_known.pixels.size(); ++i)
-      is_known.pixels[i] = g.made.pixels[i] == 0 ? 1.0f : 0.0f;
-    const Image known = whitened(on_canvas(target.known, target.size, canvas), colours);
-    g.known = to_planes(extended(known, is_known));
+    const Image stays = inverted(target.mask);
+    g.made = inverted(stays);
+    g.known = to_planes(extended(whitened(target.known, colours), stays));
   }
   if (g.usable.empty() && !g.directs()) return std::nullopt;
   return g;
@@ -121,10 +95,28 @@ Guidance scaled(const Guidance& finest, Size exemplar, Size result) {
     g.guide_weight = resize(finest.guide_weight, result);
   }
   if (finest.fills()) {
-    g.made = scaled_made(finest.made, result);
+    g.made = inverted(scaled_mask(inverted(finest.made), result));
     g.known = resample(finest.known, result, finest.tile);
   }
   return g;
+}
+
+Guidance with_shares_as_guide(Guidance guidance) {
+  if (!guidance.mixes()) return guidance;
+  const auto joined = [](const Image& guide, const Image& shares) {
+    Image result(shares.size(), guide.channels + shares.channels);
+    for (int y = 0; y < result.height; ++y)
+      for (int x = 0; x < result.width; ++x) {
+        float* to = result.at(x, y);
+        if (!guide.empty()) to = std::copy_n(guide.at(x, y), guide.channels, to);
+        std::copy_n(shares.at(x, y), shares.channels, to);
+      }
+    return result;
+  };
+  if (!guidance.guides()) guidance.guide_weight = Image(guidance.shares.size(), 1, 1.0f);
+  guidance.guide = joined(guidance.guide, guidance.shares);
+  guidance.exemplar_guide = joined(guidance.exemplar_guide, guidance.member);
+  return guidance;
 }
 
 Image scaled_mask(const Image& mask, Size size) {
@@ -165,7 +157,7 @@ Image usable_pixels(const Image& image, const Image& mask) {
   return row;
 }
 
-int thickness(const Image& made) {
+std::vector<int> steps_to_known(const Image& made) {
   const int far = made.width + made.height;
   std::vector<int> steps(made.pixels.size());
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = made.pixels[i] > 0 ? far : 0;
@@ -185,7 +177,7 @@ int thickness(const Image& made) {
       look(x, y, 1, 0);
       for (int dx = -1; dx <= 1; ++dx) look(x, y, dx, 1);
     }
-  return *std::ranges::max_element(steps);
+  return steps;
 }
 
 }  // namespace gramloom::neural

@@ -17,8 +17,7 @@ struct Guidance {
   Image usable;  // of the exemplar: 1 may be used, 0 may not; empty: all may
   Image member;  // likewise: a channel for each exemplar that is mixed, 1 where it is; empty: none
   Image shares;  // of the result: how much of each of them, their sum is 1; empty: none
-  Image made;    // likewise: 1 is made, 0 is known, −1 lies beyond the picture's edges and counts
-                 // for nothing; empty: all is made
+  Image made;    // likewise: 1 is made, 0 is known; empty: all is made
   at::Tensor known;  // (channels, height, width): what stays where `made` is not 1; in holes the
                      // nearest known pixel's
   int channels = 0;  // of the picture
@@ -43,6 +42,10 @@ std::optional<Guidance> guidance_of(const Request& request, const United& united
 /// all pixels are that lie under it.
 Guidance scaled(const Guidance& finest, Size exemplar, Size result);
 
+/// The same with weights as a guide, too: shares of the exemplars are to be like which one a patch
+/// is of. For layouts, whose patches are of one exemplar or the other.
+Guidance with_shares_as_guide(Guidance guidance);
+
 /// The mask of what may be used at that size.
 Image scaled_mask(const Image& mask, Size size);
 
@@ -52,8 +55,8 @@ void keep_known(const Guidance& guidance, at::Tensor& picture, double factor = 1
 /// The pixels of `image` that may be used, as one row.
 Image usable_pixels(const Image& image, const Image& mask);
 
-/// Half the width of the widest hole: the most steps from a pixel that is made to one that is not,
-/// as a king goes.
-int thickness(const Image& made);
+/// From each pixel that is made the steps to the nearest that is not, as a king goes; 0 elsewhere.
+/// The largest is half the width of the widest hole.
+std::vector<int> steps_to_known(const Image& made);
 
 }  // namespace gramloom::neural

@@ -49,6 +49,22 @@ GuideGroups group_guides(const GuideRows& rows, std::size_t most) {
   return groups;
 }
 
+std::int32_t GuideGroups::nearest(const float* guide) const {
+  std::int32_t best = 0;
+  float least = std::numeric_limits<float>::max();
+  for (std::int64_t g = 0; g < middle.count(); ++g) {
+    float distance = 0;
+    for (std::int64_t k = 0; k < middle.length; ++k) {
+      const float off = middle.at(g)[k] - guide[k];
+      distance += off * off;
+    }
+    if (distance >= least) continue;
+    least = distance;
+    best = static_cast<std::int32_t>(g);
+  }
+  return best;
+}
+
 GuideDraws::GuideDraws(const GuideRows& exemplar, const GuideRows& wanted,
                        const std::vector<float>& weights) {
   GuideGroups own = group_guides(exemplar, most_cells);

@@ -44,6 +44,9 @@ class GuideDraws {
 struct GuideGroups {
   std::vector<std::int32_t> group;
   GuideRows middle;  // of each group
+
+  /// The group whose middle is the nearest.
+  std::int32_t nearest(const float* guide) const;
 };
 GuideGroups group_guides(const GuideRows& rows, std::size_t most);
 

@@ -62,7 +62,7 @@ Size level_size(const NeuralParams& params, Size whole, int level) {
 
 Size canvas_size(const NeuralParams& params, const Target& target) {
   Size size = target.size;
-  if (params.sliced_weight == 0 || !params.start.empty()) return size;
+  if (params.sliced_weight == 0 || !params.start.empty() || !target.known.empty()) return size;
   const int margin = *std::max_element(params.patch_sizes.begin(), params.patch_sizes.end());
   if (!tiles_x(target.tile)) size.width += 2 * margin;
   if (!tiles_y(target.tile)) size.height += 2 * margin;

@@ -29,7 +29,8 @@ int level_count(const NeuralParams& params, Size exemplar, const Target& target)
 /// The size of a picture on a level.
 Size level_size(const NeuralParams& params, Size whole, int level);
 /// The size that is worked on: on an axis that does not tile, a little more than the texture's, to
-/// be cut off at the end. Pixels at an edge lie in few patches and stay rough.
+/// be cut off at the end. Pixels at an edge lie in few patches and stay rough. Not of a fill: of an
+/// exemplar that is the picture itself levels then have the same pixels.
 Size canvas_size(const NeuralParams& params, const Target& target);
 /// Steps of all levels but those finer than `level`.
 std::int64_t steps_down_to(const NeuralParams& params, int levels, int level);

@@ -109,7 +109,7 @@ int directed_levels(const NeuralParams& params, const Guidance& guidance, Size e
   };
   while (levels > 1 && !has_patches(levels - 1)) --levels;
   if (!guidance.fills()) return levels;
-  const double wide = thickness(guidance.made);
+  const double wide = std::ranges::max(steps_to_known(guidance.made));
   const auto is_narrow = [&](int level) {
     return wide * level_size(params, exemplar, level).width / exemplar.width <= narrow;
   };
@@ -301,8 +301,8 @@ class Synthesis {
     const bool begins = !state_.picture.defined();
     if (begins && guidance_ && guidance_->fills() && params_.start.empty()) {
       const at::Tensor exemplar = exemplar_of_level();
-      const Guidance guidance =
-          scaled(*guidance_, size_of(exemplar), level_size(params_, canvas_, state_.level));
+      const Guidance guidance = with_shares_as_guide(
+          scaled(*guidance_, size_of(exemplar), level_size(params_, canvas_, state_.level)));
       state_.picture = to_planes(
           first_fill(guidance, to_image(guidance.known), to_image(exemplar), first_patch()));
     }
@@ -429,7 +429,8 @@ class Synthesis {
 Texture run_synthesis(const NeuralParams& asked, const Request& request, const Control& control) {
   const c10::NoGradGuard no_gradients;
   start_openmp();
-  const NeuralParams params = directed_settings(asked, size_of(request));
+  const NeuralParams params =
+      directed_settings(asked, size_of(request), has_one_mix(request.target));
   const United united(request);
   const Exemplar& exemplar = united.exemplar();
   Synthesis synthesis(params, request, united, control);

@@ -2,6 +2,7 @@
 #include "core/abilities.h"
 #include "core/modules.h"
 #include "neural/blas_speed.h"
+#include "neural/directed_settings.h"
 #include "neural/module.h"
 #include "neural/settings.h"
 #include "neural/synthesis.h"
@@ -11,6 +12,7 @@ namespace gramloom {
 Texture synthesise(const NeuralParams& params, const Request& request, const Control& control) {
   neural::check_settings(params);
   check_request<NeuralParams>(request);
+  neural::directed_settings(params, size_of(request), neural::has_one_mix(request.target));
   return open_module<NeuralModule>().synthesise(params, request, control);
 }
 

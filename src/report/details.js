@@ -44,20 +44,39 @@ function toToml(value) {
   return String(value);
 }
 
+/** What a config leaves out: what is not set. */
+const isSet = (value) => value !== null && value !== undefined && value !== '' &&
+  !(Array.isArray(value) && value.length === 0) &&
+  !(typeof value === 'object' && !Array.isArray(value) && Object.keys(value).length === 0);
+const onlySet = (object) => Object.fromEntries(Object.entries(object)
+  .filter(([, value]) => isSet(value)));
+const tomlLines = (object) => Object.entries(object).filter(([, value]) => value !== null)
+  .map(([key, value]) => `${key} = ${toToml(value)}`);
+
+/** The exemplar as the config has it; none where the picture that is filled is the exemplar. */
+function exemplarOf(job, exemplar) {
+  const source = data.exemplars.find(({ name }) => name === job.exemplar);
+  if (!exemplar || (job.settings.fill && !source?.image)) return [];
+  const maps = Object.fromEntries(Object.entries(exemplar.maps ?? {})
+    .map(([name, { image }]) => [name, source?.maps?.[name] ?? image]));
+  const picture = { image: source?.image ?? exemplar.image, maps,
+    mask: source?.mask ?? '', guide: source?.guide ?? '' };
+  const pictures = source?.more?.length > 0
+    ? { images: [picture, ...source.more].map(onlySet) } : picture;
+  return ['', '[[exemplar]]', `name = ${toToml(job.exemplar)}`,
+    ...tomlLines(onlySet({ ...pictures, max_side: exemplar.max_side ?? null }))];
+}
+
 /** The job's resolved settings as a config that makes this picture and no other. */
 function configOf(job) {
-  const { method = {}, exemplar, seed, files, ...rest } = job.settings ?? {};
-  const lines = (object) => Object.entries(object).filter(([, value]) => value !== null)
-    .map(([key, value]) => `${key} = ${toToml(value)}`);
-  const source = data.exemplars.find(({ name }) => name === job.exemplar);
-  const maps = Object.entries(exemplar?.maps ?? {})
-    .map(([name, { image }]) => [name, source?.maps?.[name] ?? image]);
-  return [`seeds = [${seed ?? job.seed}]`, ...lines(rest),
-    ...(exemplar ? ['', '[[exemplar]]', `name = ${toToml(job.exemplar)}`,
-      ...lines({ image: source?.image ?? exemplar.image,
-        maps: maps.length > 0 ? Object.fromEntries(maps) : null,
-        max_side: exemplar.max_side ?? null })] : []),
-    '', '[[method]]', `name = ${toToml(job.method)}`, ...lines(method)].join('\n') + '\n';
+  const { method = {}, exemplar, seed, files, guide, mix, turn, fill, ...rest } = job.settings ?? {};
+  if (fill) delete rest.size;  // it has that of its picture
+  const asked = Object.keys({ guide, mix, turn, fill })
+    .filter((section) => job.settings?.[section] && data.run.direction?.[section]);
+  return [`seeds = [${seed ?? job.seed}]`, ...tomlLines(rest),
+    ...asked.flatMap((section) => ['', `[${section}]`, ...tomlLines(onlySet(data.run.direction[section]))]),
+    ...exemplarOf(job, exemplar),
+    '', '[[method]]', `name = ${toToml(job.method)}`, ...tomlLines(method)].join('\n') + '\n';
 }
 
 /** The command that makes this picture again, as its own record has it: another run may have had

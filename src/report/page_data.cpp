@@ -71,6 +71,28 @@ void read_maps(const RunOnDisk& run, const std::string& name, ShownExemplar& sou
   }
 }
 
+// The other pictures of the exemplar that the folder holds, its masks and guides, and what was
+// asked of the texture.
+void add_directing_pictures(const RunOnDisk& run, const std::string& name, ShownExemplar& source) {
+  const auto add = [&](const std::string& label, const std::string& file) {
+    const std::string path = name + "/" + file;
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(run.folder / path, ignored))
+      source.shown["map_pictures"].push_back({{"label", label}, {"file", path}});
+  };
+  const std::size_t pictures = 1 + source.shown["more"].size();
+  for (std::size_t i = 1; i <= pictures; ++i) {
+    const std::string which = i > 1 ? fmt::format("picture {}", i) : "";
+    const std::string stem = i > 1 ? fmt::format("exemplar_picture{}", i) : "exemplar";
+    if (i > 1) add(which, stem + ".png");
+    add(which.empty() ? "what may be used" : which + ": what may be used", stem + "_usable.png");
+    add(which.empty() ? "guide" : which + ": guide", stem + "_guide.png");
+  }
+  add("the texture's guide", "target_guide.png");
+  add("the texture's weights", "target_weights.png");
+  add("what is made anew", "target_mask.png");
+}
+
 // Adds a map to a view if that knows it and has none of its kind. The record says of normals where
 // their green points.
 void add_map(SurfaceView& view, const JobRecord& record, const std::string& map,
@@ -103,8 +125,12 @@ ShownExemplar read_source(const RunOnDisk& run, const std::string& name, Json& t
                   {"view", nullptr},
                   {"image", config.value("image", Json())},
                   {"maps", config.value("maps", Json::object())},
+                  {"mask", config.value("mask", "")},
+                  {"guide", config.value("guide", "")},
+                  {"more", config.value("more", Json::array())},
                   {"map_pictures", Json::array()}};
   read_maps(run, name, source, trouble);
+  add_directing_pictures(run, name, source);
   const std::string file = kept_exemplar(run.folder, name);
   if (file.empty()) return source;
   try {
@@ -218,11 +244,21 @@ Json job_to_json(const RunOnDisk& run, const JobOnDisk& job, const ShownExemplar
           {"trace", job.trace.rows.empty() ? Json() : thin_trace(job.trace, trace_points)}};
 }
 
+// What directs the textures, as the config has it; paths are relative to that.
+Json direction_of(const RunRecord& run) {
+  Json direction = Json::object();
+  for (const char* section : {"guide", "mix", "turn", "fill"})
+    if (run.settings.is_object() && run.settings.contains(section))
+      direction[section] = run.settings[section];
+  return direction;
+}
+
 Json run_to_json(const RunRecord& run) {
   return {{"date", run.date},
           {"command", run.command},
           {"config", run.config},
           {"set", run.set},
+          {"direction", direction_of(run)},
           {"versions", to_json_value(run.versions)},
           {"machine", to_json_value(run.machine)}};
 }

@@ -6,10 +6,11 @@
 namespace gramloom {
 
 /// What the page shows, as the JSON that its script reads; every path is relative to the folder:
-///   title, run {date, command, config, set, versions, machine}, trouble [text …]
+///   title, run {date, command, config, set, direction, versions, machine}, trouble [text …]
 ///   metrics    [{name, group, meaning, range, higher_is_better, paper, fooled_by} …]
 ///   exemplars  [{name, picture {file, width, height} or null, image: its path in the config,
-///                maps {name: path …}, likewise, map_pictures [{label, file} …]} …]
+///                maps {name: path …}, likewise, map_pictures [{label, file} …],
+///                mask, guide, more [{image, maps, mask, guide} …]} …]
 ///   methods    [name …], in the order of the jobs
 ///   jobs       [{name, exemplar, method, kind, seed, width, height, status, error, seconds,
 ///                peak_memory_mb, settings, metrics, score_error, copy_map, machine,

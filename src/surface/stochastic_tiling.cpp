@@ -7,6 +7,7 @@
 #include "core/neighbour.h"
 #include "core/portable_math.h"
 #include "core/threads.h"
+#include "signal/united.h"
 
 namespace gramloom {
 
@@ -99,11 +100,41 @@ void blend_run(std::array<const float*, 3> from, int channels, int count, float*
   }
 }
 
+// Where a piece may lie so that it takes usable pixels alone: see TilingLattice::keep_to().
+std::vector<unsigned char> usable_places(const Image& mask, const TilingParams& params,
+                                         const TilingLattice& lattice) {
+  // A turned piece also takes the pixels that a cubic needs around it.
+  const bool turned = params.rotation > 0;
+  const int before = turned ? static_cast<int>(std::ceil(lattice.piece_radius())) + 2 : 0;
+  const Size piece = turned ? Size{2 * before + 1, 2 * before + 1}
+                            : Size{lattice.piece_width(), lattice.piece_height()};
+  Image wide(mask.width + piece.width - 1, mask.height + piece.height - 1, 1);
+  for (int y = 0; y < wide.height; ++y)
+    for (int x = 0; x < wide.width; ++x)
+      *wide.at(x, y) = *mask.at(neighbour(x - before, mask.width, tiles_x(params.wraps)),
+                                neighbour(y - before, mask.height, tiles_y(params.wraps)));
+  std::vector<unsigned char> usable = usable_origins(wide, wide.size(), piece);
+  // Straight pieces end at an edge that doesn't wrap.
+  const int columns = turned || tiles_x(params.wraps) ? mask.width : lattice.places().width;
+  const int rows = turned || tiles_y(params.wraps) ? mask.height : lattice.places().height;
+  for (int y = 0; y < mask.height; ++y)
+    for (int x = 0; x < mask.width; ++x)
+      if (x >= columns || y >= rows)
+        usable[static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.width) +
+               static_cast<std::size_t>(x)] = 0;
+  if (std::ranges::find(usable, 1) == usable.end())
+    throw Error(
+        "cell = {}: tiling needs usable pieces of {}×{} pixels, and the exemplar's mask leaves "
+        "none; choose a smaller cell",
+        params.cell, piece.width, piece.height);
+  return usable;
+}
+
 }  // namespace
 
 TilingLattice make_lattice(const TilingParams& params, Size exemplar, Size result, Tile tile,
-                           Random random) {
-  const TilingLattice lattice(lattice_shape(exemplar, params, result, tile), random);
+                           Random random, const Image& mask) {
+  TilingLattice lattice(lattice_shape(exemplar, params, result, tile), random);
   const Size places = lattice.places();
   // How far apart pieces may lie, and what of their size that is at least. An exemplar of a few
   // pixels has no room whatever the cell.
@@ -114,6 +145,7 @@ TilingLattice make_lattice(const TilingParams& params, Size exemplar, Size resul
         "be nearly the same; choose a smaller cell, or say where the exemplar wraps",
         params.cell, lattice.piece_width(), lattice.piece_height(), places.width, places.height,
         exemplar.width, exemplar.height);
+  if (!mask.empty()) lattice.keep_to(usable_places(mask, params, lattice));
   return lattice;
 }
 
@@ -125,7 +157,7 @@ StochasticTiling::StochasticTiling(const Exemplar& exemplar, const TilingParams&
                                    Tile tile, Random random)
     : params_(params),
       exemplar_(exemplar.image.size()),
-      lattice_(make_lattice(params, exemplar_, size, tile, random)),
+      lattice_(make_lattice(params, exemplar_, size, tile, random, exemplar.mask)),
       values_(exemplar, params.blend),
       wide_values_(widened(values_.values(), lattice_.piece_width(), tiles_x(params.wraps))),
       wide_prominence_(

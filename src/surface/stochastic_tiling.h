@@ -13,9 +13,9 @@ namespace gramloom {
 
 /// The lattice that the params ask for, over a result of this size. Throws Error for a `period`
 /// that is not two numbers, is given with a `rotation` or fits nowhere; and for a `cell` so large
-/// that pieces would be nearly the same.
+/// that pieces would be nearly the same, or that none lies in usable pixels of a mask.
 TilingLattice make_lattice(const TilingParams& params, Size exemplar, Size result, Tile tile,
-                           Random random);
+                           Random random, const Image& mask = {});
 
 /// A plane covered with pieces of an exemplar, without repetition (surface/tiling.h says how). It
 /// is looked up at a point, or made row by row; either depends on nothing else that was made.

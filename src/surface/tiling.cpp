@@ -30,7 +30,8 @@ Cost estimate(const TilingParams& params, const RequestSize& request) {
   make_lattice(params, exemplar.size, request.size, request.tile, Random(1));  // it may refuse
   const double in = static_cast<double>(exemplar.size.width) * exemplar.size.height;
   const double out = static_cast<double>(request.size.width) * request.size.height;
-  const double bytes_in = 4.0 * exemplar.channels * 4 + 32;  // four copies, and one sorted channel
+  // Four copies, one sorted channel, and which pixels count.
+  const double bytes_in = 4.0 * exemplar.channels * 4 + 40;
   const double seconds_out = params.rotation > 0 ? 5e-7 : 1e-8;
   return {in * bytes_in + 4 * exemplar.channels * out,
           1e-7 * in * exemplar.channels + seconds_out * exemplar.channels * out};

@@ -34,11 +34,14 @@ inline constexpr auto enum_names<TileBlend> = std::to_array<std::string_view>({"
 /// Layers are blended by the same pieces and weights, so maps stay registered: of a colour and a
 /// height that are of one pixel of the exemplar in the middle of a piece, and blended alike where
 /// pieces meet.
+///
+/// Of a masked exemplar only pieces without a masked pixel are taken, and only usable pixels are
+/// ranked; several exemplars, guides, weights and known pixels are refused.
 struct TilingParams {
   static constexpr std::string_view kind = "tiling";
   static constexpr std::string_view summary =
       "hexagonal pieces from random places, blended (irregular grain, at any size)";
-  static constexpr Abilities abilities{Ability::exemplar};
+  static constexpr Abilities abilities{Ability::exemplar, Ability::mask};
 
   double cell = 0.25;
   TileBlend blend = TileBlend::histogram;

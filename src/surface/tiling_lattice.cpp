@@ -10,6 +10,9 @@ namespace gramloom {
 
 namespace {
 
+// Random places that are tried for a piece before the nearest usable one is looked for.
+constexpr int tries = 256;
+
 std::int64_t floor_divide(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
 
 // How many places there are for a piece of `length` pixels.
@@ -86,6 +89,32 @@ std::array<TilingCorner, 3> TilingLattice::around(double x, double y) const {
            {above.column, above.row, 1 - along}}};
 }
 
+bool TilingLattice::is_usable(double x, double y) const {
+  if (usable_.empty()) return true;
+  const auto wrapped = [](double value, int length) {
+    const auto i = static_cast<std::int64_t>(std::floor(value));
+    return static_cast<std::size_t>(i - floor_divide(i, length) * length);
+  };
+  return usable_[wrapped(y, shape_.exemplar.height) *
+                     static_cast<std::size_t>(shape_.exemplar.width) +
+                 wrapped(x, shape_.exemplar.width)] != 0;
+}
+
+TilingLattice::Point TilingLattice::nearest_usable(double x, double y) const {
+  Point nearest{};
+  double least = INFINITY;
+  for (int v = 0; v < shape_.exemplar.height; ++v)
+    for (int u = 0; u < shape_.exemplar.width; ++u) {
+      if (!is_usable(u, v)) continue;
+      const double distance = (u - x) * (u - x) + (v - y) * (v - y);
+      if (distance < least) {
+        least = distance;
+        nearest = {1.0 * u, 1.0 * v};
+      }
+    }
+  return nearest;
+}
+
 TilingPiece TilingLattice::piece(std::int64_t column, std::int64_t row) const {
   // The point of the first period that has this piece, and how far away that is.
   std::int64_t periods_right = 0, periods_down = 0;
@@ -110,13 +139,27 @@ TilingPiece TilingLattice::piece(std::int64_t column, std::int64_t row) const {
   const bool wraps_x = tiles_x(shape_.wraps), wraps_y = tiles_y(shape_.wraps);
   if (!(shape_.rotation > 0)) {
     const double left = std::ceil(x - across_ - 0.5), top = std::ceil(y - down_ - 0.5);
-    const double x0 = random_shift(-left, places().width, shape_.period_x, random);
-    const double y0 = random_shift(-top, places().height, shape_.period_y, random);
-    return {1, 0, x0 - right, y0 - down};
+    for (int i = 0;; ++i) {
+      const double x0 = random_shift(-left, places().width, shape_.period_x, random);
+      const double y0 = random_shift(-top, places().height, shape_.period_y, random);
+      if (is_usable(left + x0, top + y0)) return {1, 0, x0 - right, y0 - down};
+      if (i < tries) continue;
+      const Point nearest = nearest_usable(left + x0, top + y0);
+      return {1, 0, nearest.x - left - right, nearest.y - top - down};
+    }
   }
   const double radius = piece_radius();
-  const double middle_x = disc_middle(from.width, radius, wraps_x, random);
-  const double middle_y = disc_middle(from.height, radius, wraps_y, random);
+  double middle_x = disc_middle(from.width, radius, wraps_x, random);
+  double middle_y = disc_middle(from.height, radius, wraps_y, random);
+  for (int i = 0; i < tries && !is_usable(middle_x, middle_y); ++i) {
+    middle_x = disc_middle(from.width, radius, wraps_x, random);
+    middle_y = disc_middle(from.height, radius, wraps_y, random);
+  }
+  if (!is_usable(middle_x, middle_y)) {
+    const Point nearest = nearest_usable(middle_x, middle_y);
+    middle_x = nearest.x + 0.5;
+    middle_y = nearest.y + 0.5;
+  }
   const double angle = shape_.rotation * portable::pi / 180 * (2.0 * random.uniform() - 1);
   const double cosine = portable::cos(angle), sine = portable::sin(angle);
   const double result_x = x + right, result_y = y + down;

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "core/image.h"
 #include "core/random.h"
@@ -44,12 +46,20 @@ class TilingLattice {
   /// Throws Error for a period of which no multiple fits some of the pieces.
   TilingLattice(const Shape& shape, Random random);
 
+  /// From now on pieces lie where these are not 0: of straight pieces the exemplar's pixel that
+  /// their first one is, of turned ones that of their middle; row by row, one at least. Where no
+  /// multiple of a period is among them, the nearest is taken.
+  void keep_to(std::vector<unsigned char> usable) { usable_ = std::move(usable); }
+
   /// Sides of a triangle: along a row, and between rows.
   double across() const { return across_; }
   double down() const { return down_; }
   /// Pixels on a side of the largest piece.
   int piece_width() const { return static_cast<int>(2 * across_) + 1; }
   int piece_height() const { return static_cast<int>(2 * down_) + 1; }
+
+  /// The radius of the disc that holds a piece however it is turned.
+  double piece_radius() const;
 
   /// How many places of the exemplar a piece may come from, across and down; of turned pieces,
   /// whose places are not whole pixels, about so many.
@@ -60,12 +70,17 @@ class TilingLattice {
   TilingPiece piece(std::int64_t column, std::int64_t row) const;
 
  private:
-  double piece_radius() const;  // of the disc that holds a piece however it is turned
+  struct Point {
+    double x, y;
+  };
+  bool is_usable(double x, double y) const;
+  Point nearest_usable(double x, double y) const;
 
   Shape shape_;
   Random random_;
   double across_, down_;
   std::int64_t columns_ = 0, rows_ = 0;  // of a period; 0: there is none
+  std::vector<unsigned char> usable_;    // empty: all are
 };
 
 }  // namespace gramloom

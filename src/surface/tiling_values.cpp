@@ -6,6 +6,7 @@
 #include "core/portable_math.h"
 #include "core/threads.h"
 #include "signal/sort.h"
+#include "signal/united.h"
 
 namespace gramloom {
 
@@ -51,6 +52,17 @@ std::vector<float> sample(const Ranks& ranks) {
   return table;
 }
 
+// Those pixels of an image, as one of their number; all: itself.
+Image pixels_of(const Image& image, const std::vector<std::size_t>& which) {
+  const auto channels = static_cast<std::size_t>(image.channels);
+  if (which.size() * channels == image.pixels.size()) return image;
+  Image result(static_cast<int>(which.size()), 1, image.channels);
+  for (std::size_t i = 0; i < which.size(); ++i)
+    std::copy_n(image.pixels.data() + which[i] * channels, channels,
+                result.pixels.data() + i * channels);
+  return result;
+}
+
 Image lightness_of(const Image& image, int channels) {
   Image light(image.size(), 1);
   for (std::size_t i = 0; i < light.pixels.size(); ++i) {
@@ -79,11 +91,18 @@ Image prominence_of(const Exemplar& exemplar) {
 
 }  // namespace
 
-TilingValues::TilingValues(const Exemplar& exemplar, TileBlend blend)
-    : blend_(blend),
-      values_(exemplar.image),
-      slopes_(static_cast<std::size_t>(exemplar.image.channels)),
-      range_(channel_range(exemplar.image)) {
+TilingValues::TilingValues(const Exemplar& whole, TileBlend blend)
+    : blend_(blend), slopes_(static_cast<std::size_t>(whole.image.channels)) {
+  const std::size_t pixels =
+      static_cast<std::size_t>(whole.image.width) * static_cast<std::size_t>(whole.image.height);
+  for (std::size_t i = 0; i < pixels; ++i)
+    if (whole.mask.empty() || whole.mask.pixels[i] > 0.5f) usable_.push_back(i);
+  // Masked pixels have values that don't widen any range.
+  Exemplar masked;
+  if (!whole.mask.empty()) masked = {extended(whole.image, whole.mask), whole.layers};
+  const Exemplar& exemplar = whole.mask.empty() ? whole : masked;
+  values_ = exemplar.image;
+  range_ = channel_range(exemplar.image);
   if (blend == TileBlend::contrast) prominence_ = prominence_of(exemplar);
   for (const Layer& layer : layers_of(exemplar)) {
     if (layer.kind == MapKind::normal)
@@ -99,7 +118,7 @@ TilingValues::TilingValues(const Exemplar& exemplar, TileBlend blend)
 
 TilingValues::Part TilingValues::take_colour(const Image& exemplar, const Layer& layer) {
   const Image colours = extract_channels(exemplar, layer.first, layer.count);
-  Part part{layer, colour_pca(colours), {}, {}, {}, {}, {}};
+  Part part{layer, colour_pca(pixels_of(colours, usable_)), {}, {}, {}, {}, {}};
   const Image white = whitened(colours, part.axes);
   const auto count = static_cast<std::size_t>(layer.count);
   for (std::size_t i = 0; i < white.pixels.size(); ++i)
@@ -122,10 +141,10 @@ TilingValues::Part TilingValues::take_scalars(const Layer& layer) {
 // Replaces a channel of the values by the normal values of their ranks.
 TilingValues::Table TilingValues::take_ranks(int channel) {
   const auto channels = static_cast<std::size_t>(values_.channels);
-  const std::size_t pixels = values_.pixels.size() / channels;
+  const std::size_t pixels = usable_.size();
   std::vector<float> plane(pixels);
   for (std::size_t i = 0; i < pixels; ++i)
-    plane[i] = values_.pixels[i * channels + static_cast<std::size_t>(channel)];
+    plane[i] = values_.pixels[usable_[i] * channels + static_cast<std::size_t>(channel)];
   Sorter sorter;
   const auto ranked = sorter.rank(plane);
   Ranks ranks;
@@ -136,7 +155,7 @@ TilingValues::Table TilingValues::take_ranks(int channel) {
     ranks.normal.push_back(
         static_cast<float>(portable::inverse_normal(middle / static_cast<double>(pixels))));
     for (std::size_t i = begin; i < end; ++i)
-      values_.pixels[ranked[i].place * channels + static_cast<std::size_t>(channel)] =
+      values_.pixels[usable_[ranked[i].place] * channels + static_cast<std::size_t>(channel)] =
           ranks.normal.back();
   }
   if (ranks.value.size() == 1) return {0, 0, {ranks.value[0], ranks.value[0]}};
@@ -149,9 +168,10 @@ TilingValues::Part TilingValues::take_normals(const Image& exemplar, const Layer
   slopes_[static_cast<std::size_t>(layer.first)] = layer.green == GreenAxis::up ? 1.0f : -1.0f;
   std::array<double, 2> sum{};
   const auto for_each_pixel = [&](auto&& work) {
-    for (int y = 0; y < exemplar.height; ++y)
-      for (int x = 0; x < exemplar.width; ++x)
-        work(exemplar.at(x, y) + layer.first, values_.at(x, y) + layer.first);
+    const auto channels = static_cast<std::size_t>(exemplar.channels);
+    for (const std::size_t i : usable_)
+      work(exemplar.pixels.data() + i * channels + layer.first,
+           values_.pixels.data() + i * channels + layer.first);
   };
   for_each_pixel([&](const float* normal, float* slopes) {
     const float z = std::max(2 * normal[2] - 1, least_z);
@@ -163,7 +183,7 @@ TilingValues::Part TilingValues::take_normals(const Image& exemplar, const Layer
       part.most_slopes[i] = std::max(part.most_slopes[i], slopes[i]);
     }
   });
-  const double pixels = static_cast<double>(exemplar.width) * exemplar.height;
+  const auto pixels = static_cast<double>(usable_.size());
   for (std::size_t i : {0u, 1u}) part.mean_slopes[i] = static_cast<float>(sum[i] / pixels);
   for_each_pixel([&](const float*, float* slopes) {
     for (std::size_t i : {0u, 1u}) slopes[i] -= part.mean_slopes[i];

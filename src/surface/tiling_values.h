@@ -25,6 +25,7 @@ namespace gramloom {
 /// For TileBlend::contrast values stay as they are, but normals, which are slopes again; weights
 /// are multiplied by 0.4 + 0.6 · prominence, and divided by their sum (Mikkelsen 2022).
 /// Departure: the prominence is the map called "height" where there is one; else the lightness.
+/// Masked pixels don't count; their own values are of no use.
 class TilingValues {
  public:
   TilingValues(const Exemplar& exemplar, TileBlend blend);
@@ -60,6 +61,7 @@ class TilingValues {
   static void restore_normal(const Part& part, float* pixel);
 
   TileBlend blend_;
+  std::vector<std::size_t> usable_;  // which pixels count
   Image values_, prominence_;
   std::vector<float> slopes_;
   std::vector<Part> parts_;

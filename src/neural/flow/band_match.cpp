@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "neural/guidance.h"
 #include "signal/blur.h"
 
 namespace gramloom::neural {
@@ -34,24 +33,42 @@ std::size_t bands_of(Size size) {
 
 struct Moments {
   std::vector<float> mean, deviation;
+  std::int64_t pixels = 0;
 };
 
-Moments moments(const Image& image) {
+// Of each region.
+std::vector<Moments> moments(const Image& image, const Regions& regions) {
   const auto channels = static_cast<std::size_t>(image.channels);
-  std::vector<double> sum(channels), squares(channels);
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) sum[i % channels] += image.pixels[i];
-  const double pixels = static_cast<double>(image.pixels.size() / channels);
-  for (double& s : sum) s /= pixels;
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    const double d = image.pixels[i] - sum[i % channels];
-    squares[i % channels] += d * d;
+  const auto count = static_cast<std::size_t>(regions.count);
+  std::vector<double> sum(channels * count), squares(channels * count);
+  std::vector<std::int64_t> pixels(count);
+  // Calls f(value, its place in the sums) for all values of regions.
+  const auto for_each_value = [&](auto&& f) {
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+      const std::int32_t region = regions.region.empty() ? 0 : regions.region[i / channels];
+      if (region >= 0)
+        f(image.pixels[i], static_cast<std::size_t>(region) * channels + i % channels);
+    }
+  };
+  for_each_value([&](float value, std::size_t to) {
+    sum[to] += value;
+    if (to % channels == 0) ++pixels[to / channels];
+  });
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    sum[i] /= static_cast<double>(std::max<std::int64_t>(1, pixels[i / channels]));
+  for_each_value([&](float value, std::size_t to) {
+    const double d = value - sum[to];
+    squares[to] += d * d;
+  });
+  std::vector<Moments> result(count);
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    Moments& m = result[i / channels];
+    m.pixels = pixels[i / channels];
+    m.mean.push_back(static_cast<float>(sum[i]));
+    m.deviation.push_back(static_cast<float>(
+        std::sqrt(squares[i] / static_cast<double>(std::max<std::int64_t>(1, m.pixels)))));
   }
-  Moments m;
-  for (std::size_t c = 0; c < channels; ++c) {
-    m.mean.push_back(static_cast<float>(sum[c]));
-    m.deviation.push_back(static_cast<float>(std::sqrt(squares[c] / pixels)));
-  }
-  return m;
+  return result;
 }
 
 std::vector<float> factors(const std::vector<float>& goal, const std::vector<float>& own) {
@@ -63,60 +80,77 @@ std::vector<float> factors(const std::vector<float>& goal, const std::vector<flo
 
 }  // namespace
 
-BandStatistics band_statistics(const Image& image, Tile wraps, Size picture, const Image& usable) {
-  const auto moments_of = [&](const Image& band) {
-    return usable.empty() ? moments(band) : moments(usable_pixels(band, usable));
-  };
-  BandStatistics statistics;
+BandStatistics band_statistics(const Image& image, Tile wraps, Size picture) {
+  return band_statistics(image, wraps, picture, {}).front();
+}
+
+std::vector<BandStatistics> band_statistics(const Image& image, Tile wraps, Size picture,
+                                            const Regions& regions) {
+  std::vector<BandStatistics> statistics(static_cast<std::size_t>(regions.count));
   for_each_band(
       image, wraps, std::min(bands_of(image.size()), bands_of(picture)),
-      [&](const Image& band) { statistics.deviation.push_back(moments_of(band).deviation); },
+      [&](const Image& band) {
+        const auto of_regions = moments(band, regions);
+        for (std::size_t r = 0; r < statistics.size(); ++r)
+          statistics[r].deviation.push_back(of_regions[r].deviation);
+      },
       [&](const Image& rest) {
-        const Moments m = moments_of(rest);
-        statistics.deviation.push_back(m.deviation);
-        statistics.mean = m.mean;
+        const auto of_regions = moments(rest, regions);
+        for (std::size_t r = 0; r < statistics.size(); ++r) {
+          statistics[r].deviation.push_back(of_regions[r].deviation);
+          statistics[r].mean = of_regions[r].mean;
+          statistics[r].pixels = of_regions[r].pixels;
+        }
       });
   return statistics;
 }
 
 void match_bands(Image& image, const BandStatistics& exemplar) {
-  const std::size_t bands = std::min(exemplar.deviation.size() - 1, bands_of(image.size()));
-  const auto channels = static_cast<std::size_t>(image.channels);
-  Image result(image.size(), image.channels);
-  std::size_t band = 0;
-  for_each_band(
-      image, Tile::both, bands,
-      [&](const Image& part) {
-        const auto factor = factors(exemplar.deviation[band++], moments(part).deviation);
-        for (std::size_t i = 0; i < part.pixels.size(); ++i)
-          result.pixels[i] += part.pixels[i] * factor[i % channels];
-      },
-      [&](const Image& rest) {
-        const Moments m = moments(rest);
-        const auto factor = factors(exemplar.deviation.back(), m.deviation);
-        for (std::size_t i = 0; i < rest.pixels.size(); ++i) {
-          const std::size_t c = i % channels;
-          result.pixels[i] += (rest.pixels[i] - m.mean[c]) * factor[c] + exemplar.mean[c];
-        }
-      });
-  image = std::move(result);
+  match_bands(image, {exemplar}, {}, true);
 }
 
-void match_bands(Image& image, const BandStatistics& exemplar, const Image& made) {
-  const std::size_t bands = std::min(exemplar.deviation.size() - 1, bands_of(image.size()));
+void match_bands(Image& image, const std::vector<BandStatistics>& exemplar, const Regions& regions,
+                 bool rest_too) {
+  constexpr std::int64_t few = 64;
+  const std::size_t bands = std::min(exemplar.front().deviation.size() - 1, bands_of(image.size()));
   const auto channels = static_cast<std::size_t>(image.channels);
   Image result(image.size(), image.channels);
+  // Calls f(value to add to, the part's value, region, channel), or adds what is in no region.
+  const auto add = [&](const Image& part, const std::vector<Moments>& own, auto&& f) {
+    for (std::size_t i = 0; i < part.pixels.size(); ++i) {
+      const std::int32_t region = regions.region.empty() ? 0 : regions.region[i / channels];
+      const auto r = static_cast<std::size_t>(region);
+      const bool matched = region >= 0 && (regions.region.empty() ||
+                                           std::min(own[r].pixels, exemplar[r].pixels) >= few);
+      if (matched)
+        f(result.pixels[i], part.pixels[i], r, i % channels);
+      else
+        result.pixels[i] += part.pixels[i];
+    }
+  };
+  // Those of the band for each region.
+  const auto factors_of = [&](std::size_t band, const std::vector<Moments>& own) {
+    std::vector<std::vector<float>> result_factors;
+    for (std::size_t r = 0; r < own.size(); ++r)
+      result_factors.push_back(factors(exemplar[r].deviation[band], own[r].deviation));
+    return result_factors;
+  };
   std::size_t band = 0;
   for_each_band(
       image, Tile::both, bands,
       [&](const Image& part) {
-        const auto factor =
-            factors(exemplar.deviation[band++], moments(usable_pixels(part, made)).deviation);
-        for (std::size_t i = 0; i < part.pixels.size(); ++i)
-          result.pixels[i] += part.pixels[i] * factor[i % channels];
+        const auto own = moments(part, regions);
+        const auto factor = factors_of(band++, own);
+        add(part, own, [&](float& to, float value, std::size_t r, std::size_t c) {
+          to += value * factor[r][c];
+        });
       },
       [&](const Image& rest) {
-        for (std::size_t i = 0; i < rest.pixels.size(); ++i) result.pixels[i] += rest.pixels[i];
+        const auto own = moments(rest, regions);
+        const auto factor = factors_of(exemplar.front().deviation.size() - 1, own);
+        add(rest, own, [&](float& to, float value, std::size_t r, std::size_t c) {
+          to += rest_too ? (value - own[r].mean[c]) * factor[r][c] + exemplar[r].mean[c] : value;
+        });
       });
   image = std::move(result);
 }

@@ -70,15 +70,14 @@ class Filling {
     for (int dy = 0; dy < side_; ++dy)
       for (int dx = 0; dx < side_; ++dx)
         if (const auto p = pixel(x + dx - side_ / 2, y + dy - side_ / 2))
-          if (*open_.at(p->x, p->y) >= 0)
-            parts.push_back({dx, dy, p->x, p->y, !is_open(p->x, p->y)});
+          parts.push_back({dx, dy, p->x, p->y, !is_open(p->x, p->y)});
     return parts;
   }
 
   // Mean of the channels, and of the pixel itself where there is nothing known.
   float grey(int x, int y, float otherwise) const {
     const auto p = pixel(x, y);
-    if (!p || *open_.at(p->x, p->y) != 0) return otherwise;
+    if (!p || is_open(p->x, p->y)) return otherwise;
     float sum = 0;
     for (int c = 0; c < picture_.channels; ++c) sum += picture_.at(p->x, p->y)[c];
     return sum / static_cast<float>(picture_.channels);
@@ -117,8 +116,7 @@ class Filling {
         if (!is_open(p->x, p->y)) continue;
         bool at_edge = false;
         for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-          if (const auto beside = pixel(u + dx, v + dy))
-            at_edge |= *open_.at(beside->x, beside->y) == 0;
+          if (const auto beside = pixel(u + dx, v + dy)) at_edge |= !is_open(beside->x, beside->y);
         if (!at_edge) continue;
         float sum = 0, count = 0;
         for (const Part& part : parts_about(p->x, p->y)) {
@@ -202,7 +200,7 @@ class Filling {
   Image picture_;
   const Image& exemplar_;
   int side_;
-  Image open_;  // as Guidance::made: 1 until it is filled
+  Image open_;  // 1 until it is filled
   Image confidence_, priority_;
   std::vector<PatchPlace> places_;
   float guide_scale_ = 0;

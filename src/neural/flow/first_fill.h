@@ -10,8 +10,8 @@ namespace gramloom::neural {
 /// begins with on its coarsest level. Of all patches about a pixel at an edge the next is that of
 /// the greatest confidence times strength of what runs into the edge; it is laid from the usable
 /// patch that is nearest on its known pixels. With a guide its distance joins that one. No larger
-/// than `side`. What lies beyond the picture (guidance.h) stays as it is. The same bytes for any
-/// threads. picture, exemplar: of the sizes that the guidance is of.
+/// than `side`. The same bytes for any number of threads. picture, exemplar: of the sizes that the
+/// guidance is of.
 Image first_fill(const Guidance& guidance, Image picture, const Image& exemplar, int side);
 
 }  // namespace gramloom::neural

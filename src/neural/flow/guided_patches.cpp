@@ -58,17 +58,6 @@ Vectors GuidedPatches::references(Vectors of_exemplar, const std::vector<PatchPl
   });
 }
 
-std::vector<float> GuidedPatches::squares(const std::vector<PatchPlace>& places) const {
-  std::vector<float> result;
-  if (means_.empty()) return result;
-  for (const PatchPlace p : places) {
-    const float* mean = means_.at(p.x, p.y);
-    result.push_back(*weight_.at(p.x, p.y) *
-                     std::inner_product(mean, mean + means_.channels, mean, 0.0f));
-  }
-  return result;
-}
-
 std::vector<float> squares_of(const Vectors& vectors) {
   std::vector<float> squares;
   for (std::int64_t i = 0; i < vectors.count; ++i) {

@@ -19,8 +19,6 @@ class GuidedPatches {
 
   Vectors queries(Vectors of_picture, const std::vector<PatchPlace>& places) const;
   Vectors references(Vectors of_exemplar, const std::vector<PatchPlace>& places, float t) const;
-  /// w² |g|² of these patches of the result; empty: no guide.
-  std::vector<float> squares(const std::vector<PatchPlace>& places) const;
 
  private:
   Image means_, exemplar_means_, weight_;  // weight_: w² of the patch in the vectors' unit

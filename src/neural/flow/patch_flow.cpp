@@ -104,6 +104,29 @@ class GuideAgreement {
   const Guidance& guidance_;
 };
 
+// How much pixels count in a vote; nothing where each counts alike.
+Agreement agreement_of(const Guidance& guidance) {
+  if (guidance.guides()) return GuideAgreement(guidance);
+  if (guidance.fills()) return [](int, int, int, int) { return 1.0f; };
+  return {};
+}
+
+// What each patch of a fill counts in a vote, by how near its middle is to known pixels: what is
+// sure comes first (Wexler, Shechtman, Irani 2007, "Space-time completion of video", section 3.2).
+std::vector<float> confidences(const Image& made, int side) {
+  constexpr float base = 1.3f;
+  constexpr int most_steps = 12;
+  const std::vector<int> steps = steps_to_known(made);
+  std::vector<float> result(steps.size());
+  for (int y = 0; y < made.height; ++y)
+    for (int x = 0; x < made.width; ++x) {
+      const auto middle = made.index((x + side / 2) % made.width, (y + side / 2) % made.height);
+      result[made.index(x, y)] =
+          std::pow(base, -static_cast<float>(std::min(steps[middle], most_steps)));
+    }
+  return result;
+}
+
 // The mean price of places of about one guide becomes 0.
 void level_prices(const GuideGroups& groups, const std::vector<PatchPlace>& usable, Prices prices) {
   const auto count = static_cast<std::size_t>(groups.middle.count());
@@ -129,7 +152,8 @@ struct PatchFlow::Octave {
   Image exemplar;
   Size size, places;
   PatchAxes axes;
-  BandStatistics bands;
+  std::vector<BandStatistics> bands;  // of each region
+  Regions regions;                    // of the picture
   std::vector<float> window;
   std::vector<float> times;  // times[i] before step i
 
@@ -139,6 +163,7 @@ struct PatchFlow::Octave {
   GuideGroups like_guides;               // of `usable`
   std::vector<unsigned char> is_usable;  // of all places
   std::vector<unsigned char> counts;     // of a fill: of all patches of the picture
+  std::vector<float> confidence;         // of a fill, likewise
   std::optional<GuidedPatches> guided;
 
   bool fills() const { return guidance.fills(); }
@@ -182,7 +207,7 @@ PatchFlow::Octave& PatchFlow::octave(int index, bool coarsest) {
   } else {
     o->axes = patch_axes(o->exemplar, side, axes_kept, of_axes);
   }
-  o->bands = band_statistics(o->exemplar, Tile::none, o->size, o->guidance.usable);
+  o->bands = band_statistics(o->exemplar, Tile::none, o->size, regions_of(*o));
   o->window = vote_window(side, window_spread);
   const int steps = at_level(params_.flow_steps, index);
   if (coarsest && !o->fills() &&
@@ -200,8 +225,37 @@ PatchFlow::Octave& PatchFlow::octave(int index, bool coarsest) {
   return *octave_;
 }
 
+Regions PatchFlow::regions_of(Octave& o) const {
+  constexpr std::size_t most_regions = 32;
+  const Guidance& g = o.guidance;
+  Regions own;
+  GuideGroups groups;
+  if (o.guides()) {
+    GuideRows rows{g.guide.channels, usable_pixels(g.exemplar_guide, g.usable).pixels};
+    groups = group_guides(rows, most_regions);
+    own.count = o.regions.count = static_cast<int>(groups.middle.count());
+  }
+  // Where `counts` is not 0, the group whose guide is the nearest, or the one that there is.
+  const auto find = [&](const Image& counts, const Image& guide, Size size) {
+    std::vector<std::int32_t> regions;
+    const auto pixels =
+        static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const bool is_counted = counts.empty() || counts.pixels[i] > 0.5f;
+      const float* values =
+          o.guides() ? guide.pixels.data() + i * static_cast<std::size_t>(guide.channels) : nullptr;
+      regions.push_back(!is_counted ? -1 : values ? groups.nearest(values) : 0);
+    }
+    return regions;
+  };
+  if (o.guides() || !g.usable.empty())
+    own.region = find(g.usable, g.exemplar_guide, o.exemplar.size());
+  if (o.guides() || o.fills()) o.regions.region = find(g.made, g.guide, o.size);
+  return own;
+}
+
 void PatchFlow::direct(Octave& o, int side) const {
-  o.guidance = scaled(*guidance_, o.exemplar.size(), o.size);
+  o.guidance = with_shares_as_guide(scaled(*guidance_, o.exemplar.size(), o.size));
   for (const auto& of_exemplar : usable_places(o.guidance, o.exemplar.size(), side))
     o.usable.insert(o.usable.end(), of_exemplar.begin(), of_exemplar.end());
   const auto at = [](PatchPlace p, int width) {
@@ -221,6 +275,7 @@ void PatchFlow::direct(Octave& o, int side) const {
     o.like_guides = group_guides(rows, 64);
   }
   if (!o.fills()) return;
+  o.confidence = confidences(o.guidance.made, side);
   o.counts.resize(static_cast<std::size_t>(o.size.width) * static_cast<std::size_t>(o.size.height));
   for (const PatchPlace p : made_places(o.guidance, o.size, side))
     o.counts[at(p, o.size.width)] = 1;
@@ -285,11 +340,7 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
     norms[r] = t * t * std::inner_product(v, v + of_exemplar.dimensions, v, 0.0f);
   }
 
-  std::vector<float> squares;  // of queries that a guide has made longer
   if (o.guides()) {
-    squares = squares_of(of_picture);
-    const std::vector<float> of_guide = o.guided->squares(queries);
-    for (std::size_t q = 0; q < squares.size(); ++q) squares[q] += of_guide[q];
     of_picture = o.guided->queries(std::move(of_picture), queries);
     of_exemplar = o.guided->references(std::move(of_exemplar), references, t);
   }
@@ -297,7 +348,8 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
   float* prices = state.prices.data_ptr<float>();
   if (params_.flow_price > 0) {
     update_prices({o.places, prices}, references, of_picture, of_exemplar, norms, t,
-                  {params_.flow_price, price_spread * side, state.step == 0 ? 4 : 2, squares},
+                  {params_.flow_price, price_spread * side, state.step == 0 ? 4 : 2,
+                   o.guides() ? dimensions : 0},
                   at_step(Stream::queries));
     if (o.guides()) level_prices(o.like_guides, o.usable, {o.places, prices});
   }
@@ -324,17 +376,20 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
 
   of_picture = {};  // large
 
-  const std::vector<float> weights = likelihoods(found, t);
+  std::vector<float> weights = likelihoods(found, t);
+  const auto k = static_cast<std::size_t>(found.neighbours);
+  for (std::size_t q = 0; o.fills() && q < queries.size(); ++q)
+    for (std::size_t j = 0; j < k; ++j)
+      weights[q * k + j] *=
+          o.confidence[static_cast<std::size_t>(queries[q].y * o.size.width + queries[q].x)];
   Image goal = vote(o.size, queries, o.exemplar, references, found, weights, side, o.window,
-                    o.guides() ? Agreement(GuideAgreement(o.guidance)) : Agreement());
+                    agreement_of(o.guidance));
   if (o.fills()) {
     at::Tensor whole = to_planes(goal);
     keep_known(o.guidance, whole, scale_);
     goal = to_image(whole);
-    if (t < bands_until) match_bands(goal, o.bands, o.guidance.made);
-  } else if (t < bands_until && !o.guides()) {
-    match_bands(goal, o.bands);
   }
+  if (t < bands_until) match_bands(goal, o.bands, o.regions, !o.fills());
   state.goal = to_planes(goal);
   if (o.fills()) keep_known(o.guidance, state.goal, scale_);
   state.picture += (state.goal - state.picture) * ((next - t) / (1 - t));

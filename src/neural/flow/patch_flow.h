@@ -6,6 +6,7 @@
 
 #include "core/random.h"
 #include "core/request.h"
+#include "neural/flow/band_match.h"
 #include "neural/flow/params.h"
 #include "neural/flow/periodic_part.h"
 #include "neural/guidance.h"
@@ -38,10 +39,10 @@ struct FlowState {
 /// With guidance (guidance.h): patches are of usable pixels alone, and there are no courses of
 /// several exemplars or with what directs the result. A guide's values are further coordinates of
 /// the search (guided_patches.h), a pixel votes the less the less its guide is like that of its
-/// place, prices balance the use of patches of like guides, and bands are not matched. Of a fill
-/// only patches with a pixel that is made are looked for, among all of the exemplar's (up to
-/// 16384), for no price; after each step the known pixels are, without noise, what they are at that
-/// time of the flow.
+/// place, prices balance the use of patches of like guides, and bands are matched where guides are
+/// alike. Of a fill only patches with a pixel that is made are looked for, among all of the
+/// exemplar's (up to 16384), for no price; after each step the known pixels are, without noise,
+/// what they are at that time of the flow.
 class PatchFlow {
  public:
   /// exemplar: (channels, height, width). Throws Error when it is too small.
@@ -62,6 +63,9 @@ class PatchFlow {
   Octave& octave(int index, bool coarsest);
   // What the guidance says on this octave, for patches of that side.
   void direct(Octave& octave, int side) const;
+  // The regions of its exemplar whose bands are matched in those of its picture: of like guides,
+  // usable, made.
+  Regions regions_of(Octave& octave) const;
 
   FlowParams params_;
   at::Tensor exemplar_;  // of mean square 1

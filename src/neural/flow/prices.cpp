@@ -14,30 +14,22 @@ constexpr std::int64_t most_queries = 8192;  // more change no price to speak of
 constexpr double least_use = 0.05;
 constexpr double slowing = 0.7;  // of the rate from one repetition to the next
 
-struct Drawn {
-  Vectors queries;
-  double squares = 0;  // summed
-};
+// Squared, in the first `dimensions` alone; `square` is that of the scaled reference.
+double distance_in(std::int64_t dimensions, const float* query, const float* reference,
+                   float square, float scale) {
+  double sum = square;
+  for (std::int64_t d = 0; d < dimensions; ++d)
+    sum += double{query[d]} * query[d] - 2.0 * scale * query[d] * reference[d];
+  return sum;
+}
 
-Drawn drawn_of(const Vectors& queries, const std::vector<float>& squares, Random random) {
-  Drawn drawn;
-  const auto add_square = [&](std::int64_t query) {
-    if (!squares.empty()) drawn.squares += squares[static_cast<std::size_t>(query)];
-  };
-  if (queries.count <= most_queries) {
-    drawn.queries = queries;
-    for (std::int64_t i = 0; i < queries.count; ++i) add_square(i);
-  } else {
-    drawn.queries = Vectors(most_queries, queries.dimensions);
-    for (std::int64_t i = 0; i < most_queries; ++i) {
-      const std::int64_t query = random.below(static_cast<std::uint32_t>(queries.count));
-      std::copy_n(queries.at(query), queries.dimensions, drawn.queries.at(i));
-      add_square(query);
-    }
-  }
-  if (squares.empty())
-    for (const float v : drawn.queries.values) drawn.squares += static_cast<double>(v) * v;
-  return drawn;
+Vectors some_of(const Vectors& queries, Random random) {
+  if (queries.count <= most_queries) return queries;
+  Vectors some(most_queries, queries.dimensions);
+  for (std::int64_t i = 0; i < most_queries; ++i)
+    std::copy_n(queries.at(random.below(static_cast<std::uint32_t>(queries.count))),
+                queries.dimensions, some.at(i));
+  return some;
 }
 
 }  // namespace
@@ -45,7 +37,7 @@ Drawn drawn_of(const Vectors& queries, const std::vector<float>& squares, Random
 void update_prices(Prices prices, const std::vector<PatchPlace>& places, const Vectors& queries,
                    const Vectors& references, const std::vector<float>& offsets, float scale,
                    const PriceSteps& steps, Random random) {
-  const auto [some, squares] = drawn_of(queries, steps.squares, random);
+  const Vectors some = some_of(queries, random);
   const auto index = [&](PatchPlace p) {
     return static_cast<std::size_t>(p.y) * static_cast<std::size_t>(prices.places.width) +
            static_cast<std::size_t>(p.x);
@@ -54,6 +46,8 @@ void update_prices(Prices prices, const std::vector<PatchPlace>& places, const V
   Image there(prices.places, 1);
   for (const PatchPlace p : places) there.pixels[index(p)] = 1;
   there = blurred(there, deviation, Tile::none);
+  double squares = 0;
+  for (const float v : some.values) squares += static_cast<double>(v) * v;
 
   double mean_distance = 0, rate = steps.rate;
   for (int i = 0; i < steps.repetitions; ++i, rate *= slowing) {
@@ -69,7 +63,18 @@ void update_prices(Prices prices, const std::vector<PatchPlace>& places, const V
       use.pixels[at] += one;
       costs += static_cast<double>(nearest.cost[q]) - prices.values[at];
     }
-    if (i == 0) mean_distance = std::max(0.0, (squares + costs) / static_cast<double>(some.count));
+    if (i == 0) {
+      double sum = squares + costs;
+      if (steps.dimensions > 0) {  // not how unlike guides are: it may be without measure
+        sum = 0;
+        for (std::int64_t q = 0; q < some.count; ++q) {
+          const auto r = nearest.reference[static_cast<std::size_t>(q)];
+          sum += distance_in(steps.dimensions, some.at(q), references.at(r),
+                             offsets[static_cast<std::size_t>(r)], scale);
+        }
+      }
+      mean_distance = std::max(0.0, sum / static_cast<double>(some.count));
+    }
     use = blurred(use, deviation, Tile::none);
     double sum = 0;
     for (std::size_t p = 0; p < use.pixels.size(); ++p) {

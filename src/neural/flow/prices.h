@@ -14,8 +14,7 @@ struct PriceSteps {
   double rate;       // of the price for a use e times too high, relative to the mean distance
   double smoothing;  // patches that lie this near are one: deviation in pixels
   int repetitions;
-  /// Of each query, squared: its length, where that of its vector isn't it; empty: it is.
-  std::vector<float> squares = {};
+  std::int64_t dimensions = 0;  // of vectors that a guide has made longer: those of the picture
 };
 
 /// Raises the price of references that queries use more often than others, lowers the others', so

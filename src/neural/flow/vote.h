@@ -15,7 +15,8 @@ using Agreement = std::function<float(int x, int y, int u, int v)>;
 
 /// Each query becomes the mean of its exemplar patches by `weights` (queries × neighbours); where
 /// they overlap, the mean by the window. The picture wraps; a pixel that no patch covers is 0.
-/// `agreement`, where there is one: how much the pixel of a patch counts at one of the picture.
+/// `agreement`, where there is one: how much the pixel of a patch counts at one of the picture; the
+/// sums of queries' weights then count too, and are else 1.
 /// The same bytes for any number of threads.
 Image vote(Size size, const std::vector<PatchPlace>& queries, const Image& exemplar,
            const std::vector<PatchPlace>& references, const Neighbours& nearest,

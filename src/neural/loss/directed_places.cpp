@@ -91,20 +91,11 @@ std::vector<std::vector<PatchPlace>> usable_places(const Guidance& guidance, Siz
 std::vector<PatchPlace> made_places(const Guidance& guidance, Size result, int side) {
   const Size places = places_of(result, side, guidance.tile);
   std::vector<PatchPlace> counted;
-  Image made, beyond;
-  if (guidance.fills()) {
-    made = beyond = Image(result, 1);
-    for (std::size_t i = 0; i < made.pixels.size(); ++i) {
-      made.pixels[i] = guidance.made.pixels[i] > 0 ? 1.0f : 0.0f;
-      beyond.pixels[i] = guidance.made.pixels[i] < 0 ? 1.0f : 0.0f;
-    }
-    made = patch_sums(made, side);
-    beyond = patch_sums(beyond, side);
-  }
+  Image made;
+  if (guidance.fills()) made = patch_sums(guidance.made, side);
   for (int y = 0; y < places.height; ++y)
     for (int x = 0; x < places.width; ++x)
-      if (!guidance.fills() || (*made.at(x, y) > 0.5f && *beyond.at(x, y) < 0.5f))
-        counted.push_back({x, y});
+      if (!guidance.fills() || *made.at(x, y) > 0.5f) counted.push_back({x, y});
   return counted;
 }
 

@@ -13,8 +13,8 @@ namespace gramloom::neural {
 std::vector<std::vector<PatchPlace>> usable_places(const Guidance& guidance, Size exemplar,
                                                    int side);
 
-/// The patches of a result of that size that count: those that have a pixel that is made, and none
-/// beyond the picture's edges. In the order of their rows.
+/// The patches of a result of that size that count: those that have a pixel that is made. In the
+/// order of their rows.
 std::vector<PatchPlace> made_places(const Guidance& guidance, Size result, int side);
 
 /// Which patches of one size are compared, and with which.
