@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <opencv2/imgproc.hpp>
 #include <queue>
 #include <tuple>
 
 #include "classic/patch_vote.h"
-#include "core/simd.h"
 #include "core/threads.h"
-#include "signal/patch_distance.h"
 
 namespace gramloom {
 
@@ -18,76 +14,11 @@ namespace {
 
 constexpr int border = field_patch - 1;
 constexpr int middle = field_patch / 2;
-typedef float Pixel
-    __attribute__((vector_size(field_features * sizeof(float)), aligned(4), may_alias));
+constexpr float patch_area = field_patch * field_patch;
+using Pixel = FeaturePixel;
 
 std::size_t to_size(int i) { return static_cast<std::size_t>(i); }
-
-/// A known pixel that a place is to have: how much it counts, and where it lies from its origin.
-struct Known {
-  Pixel value;
-  float weight;
-  std::ptrdiff_t offset;  // in pixels of the places' features
-};
-
-/// What a patch looks for: like pixels where it has them, a like guide everywhere.
-struct Wanted {
-  std::vector<Known> pixels;  // the patch's own first
-  float weight = 0;           // of all
-  const PatchGuide* guide = nullptr;
-  int x = 0, y = 0;
-  float guide_weight = 0;
-};
-
-/// How much pixels about a patch count beside its own.
-constexpr float context_weight = 0.2f;
-constexpr float patch_area = field_patch * field_patch;
-/// What a pixel counts that is known where a place has none: as if it differed by this variance.
-constexpr float unseen = 0.1f;
-
-GRAMLOOM_INLINE float squared_difference(const Known& pixel, const float* value) {
-  const Pixel d = pixel.value - *reinterpret_cast<const Pixel*>(value);
-  const Pixel squares = d * d;
-  return pixel.weight * ((squares[0] + squares[1]) + (squares[2] + squares[3]));
-}
-
-/// The costs of places [first, last), as of a whole patch; of those above `limit` times the least
-/// so far only a part.
-GRAMLOOM_SIMD void compare(const Wanted& wanted, const GrowthPlaces& places, std::size_t first,
-                           std::size_t last, float limit, float* costs) {
-  float least = std::numeric_limits<float>::infinity();
-  const PatchSource& source = *places.source;
-  const std::ptrdiff_t row = std::ptrdiff_t{source.features.width} * field_features;
-  const auto known = static_cast<std::ptrdiff_t>(wanted.pixels.size());
-  const float scale = wanted.weight > 0 ? patch_area / wanted.weight : 0;
-  const Known* pixels = wanted.pixels.data();
-  for (std::size_t i = first; i < last; ++i) {
-    const PatchOrigin o = places.origins[i];
-    float cost = 0;
-    if (wanted.guide_weight > 0)
-      for (std::size_t plane = 0; plane < source.guide.size(); ++plane) {
-        const Image& asked = wanted.guide->wanted[plane];
-        cost += wanted.guide_weight * squared_distance(asked.at(wanted.x, wanted.y),
-                                                       std::ptrdiff_t{asked.width} * field_features,
-                                                       source.guide[plane].at(o.x, o.y), row);
-      }
-    const float* from = places.features.at(o.x + growth_context, o.y + growth_context);
-    const unsigned char* valid =
-        places.inside[i] != 0
-            ? nullptr
-            : places.valid.data() + places.index(o.x + growth_context, o.y + growth_context);
-    for (std::ptrdiff_t k = 0; k < known && cost < limit * least;) {
-      float sum = 0;
-      for (const std::ptrdiff_t end = std::min(known, k + 16); k < end; ++k)
-        sum += valid && valid[pixels[k].offset] == 0
-                   ? pixels[k].weight * unseen
-                   : squared_difference(pixels[k], from + pixels[k].offset * field_features);
-      cost += scale * sum;
-    }
-    costs[i] = cost;
-    least = cost < least ? cost : least;
-  }
-}
+int wrapped(int i, int length) { return (i % length + length) % length; }
 
 /// A patch and how urgent it was when it was put into the queue.
 struct Turn {
@@ -141,8 +72,8 @@ class Growth {
     return to_size(y % size_.height) * to_size(size_.width) + to_size(x % size_.width);
   }
   bool is_known(int x, int y) const {
-    if (tiles_x(hole_.field.tile)) x = (x + size_.width) % size_.width;
-    if (tiles_y(hole_.field.tile)) y = (y + size_.height) % size_.height;
+    if (tiles_x(hole_.field.tile)) x = wrapped(x, size_.width);
+    if (tiles_y(hole_.field.tile)) y = wrapped(y, size_.height);
     return x >= 0 && y >= 0 && x < size_.width && y < size_.height && left_[pixel(x, y)] == 0;
   }
 
@@ -179,16 +110,16 @@ class Growth {
   }
 
   /// Adds a known pixel that lies (i, j) from a patch's first.
-  void add_known(int x, int y, int i, int j, float weight, Wanted& wanted) const {
+  void add_known(int x, int y, int i, int j, float weight, WantedPatch& wanted) const {
     if (!is_known(x + i, y + j)) return;
-    const int u = (x + i + size_.width) % size_.width, v = (y + j + size_.height) % size_.height;
+    const int u = wrapped(x + i, size_.width), v = wrapped(y + j, size_.height);
     wanted.pixels.push_back({*reinterpret_cast<const Pixel*>(hole_.canvas.at(u, v)), weight,
                              std::ptrdiff_t{j} * places_.features.width + i});
     wanted.weight += weight;
   }
 
-  Wanted wanted_of(int x, int y) const {
-    Wanted wanted;
+  WantedPatch wanted_of(int x, int y) const {
+    WantedPatch wanted;
     for (int j = 0; j < field_patch; ++j)
       for (int i = 0; i < field_patch; ++i) add_known(x, y, i, j, 1, wanted);
     // Of those about it, every second one tells enough.
@@ -206,7 +137,7 @@ class Growth {
   }
 
   PatchOrigin find(int x, int y, float tolerance, Random& random) {
-    const Wanted wanted = wanted_of(x, y);
+    const WantedPatch wanted = wanted_of(x, y);
     parallel_for(std::ssize(origins_), 4096, [&](std::int64_t first, std::int64_t last) {
       compare(wanted, places_, static_cast<std::size_t>(first), static_cast<std::size_t>(last),
               1 + tolerance, costs_.data());
@@ -242,8 +173,8 @@ class Growth {
     const bool wraps_x = tiles_x(hole_.field.tile), wraps_y = tiles_y(hole_.field.tile);
     for (int v = y - border - 1; v <= y + border + 1; ++v)
       for (int u = x - border - 1; u <= x + border + 1; ++u) {
-        const int column = wraps_x ? (u + 2 * field.width * field_patch) % field.width : u;
-        const int row = wraps_y ? (v + 2 * field.height * field_patch) % field.height : v;
+        const int column = wraps_x ? wrapped(u, field.width) : u;
+        const int row = wraps_y ? wrapped(v, field.height) : v;
         if (column >= 0 && row >= 0 && column < field.width && row < field.height) ask(column, row);
       }
   }
@@ -292,39 +223,6 @@ class Growth {
 };
 
 }  // namespace
-
-GrowthPlaces growth_places(const PatchSource& source, std::size_t most) {
-  GrowthPlaces places{.source = &source};
-  const Size size = source.origins();
-  const auto count = source.usable.empty()
-                         ? std::ssize(source.sketches)
-                         : std::ranges::count_if(source.usable, [](auto v) { return v != 0; });
-  const std::size_t step = (static_cast<std::size_t>(count) + most - 1) / most;
-  std::size_t i = 0;
-  for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < size.width; ++x)
-      if (source.is_usable({x, y}) && i++ % step == 0) places.origins.push_back({x, y});
-
-  // A pixel may be used where a usable patch has it.
-  const Size wide{source.features.width + 2 * growth_context,
-                  source.features.height + 2 * growth_context};
-  cv::Mat1b first(wide.height, wide.width, std::uint8_t{0}), valid, inside;
-  for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < size.width; ++x)
-      first(y + growth_context, x + growth_context) = source.is_usable({x, y}) ? 1 : 0;
-  cv::dilate(first, valid, cv::Mat::ones(field_patch, field_patch, CV_8U),
-             cv::Point(field_patch - 1, field_patch - 1));
-  constexpr int side = field_patch + 2 * growth_context;
-  cv::erode(valid, inside, cv::Mat::ones(side, side, CV_8U), cv::Point(0, 0), 1,
-            cv::BORDER_CONSTANT, cv::Scalar(0));
-  for (const PatchOrigin o : places.origins) places.inside.push_back(inside(o.y, o.x));
-  places.valid.assign(valid.datastart, valid.dataend);
-  places.features = Image(wide, field_features);
-  for (int y = 0; y < source.features.height; ++y)
-    std::copy_n(source.features.at(0, y), source.features.width * field_features,
-                places.features.at(growth_context, y + growth_context));
-  return places;
-}
 
 void grow(PatchHole& hole, const GrowthPlaces& places, float tolerance, Random random) {
   Growth(hole, places).run(tolerance, random);

@@ -3,29 +3,10 @@
 #include <vector>
 
 #include "classic/patch_hole.h"
+#include "classic/patch_places.h"
 #include "core/random.h"
 
 namespace gramloom {
-
-/// Pixels about a patch that growth compares besides those of the patch.
-inline constexpr int growth_context = 8;
-
-/// Places of a level that growth may copy from.
-struct GrowthPlaces {
-  const PatchSource* source = nullptr;
-  std::vector<PatchOrigin> origins = {};   // usable ones, evenly spread over all
-  std::vector<unsigned char> inside = {};  // whether all pixels about each may be used, too
-  Image features = {};  // the source's with growth_context more pixels on each side
-  std::vector<unsigned char> valid = {};  // which of those pixels may be used
-
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(features.width) +
-           static_cast<std::size_t>(x);
-  }
-};
-
-/// Up to `most` of the usable origins.
-GrowthPlaces growth_places(const PatchSource& source, std::size_t most);
 
 /// Makes a hole without known pixels as a quilt (quilting.h), which keeps rows and grids straight:
 /// sets its canvas and the origins of its patches. false: the source is too small for its patches.

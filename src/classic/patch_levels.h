@@ -2,6 +2,7 @@
 
 #include "classic/patchmatch.h"
 #include "signal/patch_origin.h"
+
 namespace gramloom {
 
 /// Sides below this are too short for patches to find their like in.

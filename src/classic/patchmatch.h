@@ -24,7 +24,10 @@ namespace gramloom {
 ///
 /// Several exemplars, masks, weights, guides and fills are met by the same search and vote
 /// (patchmatch_directed.h):
-/// - only patches that lie wholly in usable pixels of one exemplar are copied, on every level;
+/// - only patches that lie wholly in usable pixels of one exemplar are copied, on every level:
+/// there
+///   are as many as leave each exemplar some. The first quilt is masked and guided, and makes as
+///   much of each of several exemplars as it has;
 /// - a guide's channels are compared as the features are, patch by patch, and once more when each
 ///   pixel is chosen, so that labels end where they are painted (Hertzmann et al. 2001, "Image
 ///   analogies", whose texture by numbers this is; weights of exemplars are such a guide);
@@ -33,7 +36,8 @@ namespace gramloom {
 ///   the stronger votes. Departures: their coarsest level starts from what grows inward from the
 ///   holes' borders (Criminisi, Pérez, Toyama 2004, "Region filling and object removal by
 ///   exemplar-based image inpainting"); holes far apart are filled apart, each on as many levels as
-///   it is wide; each pixel is one of the exemplar's.
+///   it is wide; each pixel is one of the exemplar's, chosen so that pieces meet each other and the
+///   known pixels where they are alike (Kwatra et al. 2003, "Graphcut textures").
 struct PatchmatchParams {
   static constexpr std::string_view kind = "patchmatch";
   static constexpr std::string_view summary =
@@ -87,8 +91,8 @@ struct PatchmatchParams {
 
 /// The texture. An exemplar of fewer than 16 pixels on a side is continued by mirroring.
 /// Progress counts iterations; the loss is Kwatra's robust energy on the current level.
-/// In a fill, `uniformity` and `largest_copy` are ignored: a hole continues what is about it, and
-/// may be one piece.
+/// In a fill `structure` counts nothing: a hole continues what is about it, to the colour. Nor do
+/// `uniformity` and `largest_copy` unless there is more to make than to copy from.
 /// Throws Error for an empty exemplar or target, or where masks leave no patch of 8×8 pixels whole;
 /// Interrupted when `control` asks to stop.
 Texture synthesise(const PatchmatchParams& params, const Request& request, const Control& control);

@@ -9,6 +9,7 @@
 #include "classic/patch_growth.h"
 #include "classic/patch_hole.h"
 #include "classic/patch_levels.h"
+#include "classic/patch_material.h"
 #include "classic/patch_vote.h"
 #include "classic/patch_windows.h"
 #include "core/error.h"
@@ -21,12 +22,6 @@ namespace gramloom {
 
 namespace {
 
-/// A hole is narrow enough for the coarsest level at this width, and an exemplar small enough at
-/// this many origins.
-constexpr int narrow_hole = 8;
-constexpr double few_origins = 5e4;
-/// Fewer origins than these of an exemplar on a level are too few to choose from.
-constexpr int fewest_origins = 64;
 /// Where there are no known pixels, growth draws from the places that are this much worse than the
 /// best.
 constexpr float growth_tolerance = 0.1f;
@@ -42,7 +37,7 @@ double area(Size size) { return static_cast<double>(size.width) * size.height; }
 /// A target that a patch fits in: what is added is made, and cut off in the end.
 Target padded(const Target& target, Size size) {
   const auto wider = [&](const Image& map) {
-    if (map.empty() || map.size() == Size{1, 1}) return map;
+    if (map.empty()) return map;
     Image result(size, map.channels);
     for (int y = 0; y < size.height; ++y)
       for (int x = 0; x < size.width; ++x)
@@ -55,97 +50,13 @@ Target padded(const Target& target, Size size) {
                 .known = wider(target.known),
                 .mask = wider(target.mask),
                 .guide = wider(target.guide),
-                .guide_weight = wider(target.guide_weight)};
+                .guide_weight = target.guide_weight.size() == Size{1, 1}
+                                    ? target.guide_weight
+                                    : wider(target.guide_weight)};
   for (int y = 0; y < size.height && !result.mask.empty(); ++y)
     for (int x = 0; x < size.width; ++x)
       if (x >= target.size.width || y >= target.size.height) *result.mask.at(x, y) = 1;
   return result;
-}
-
-/// The exemplars as one picture to copy from, on all levels, finest first.
-struct Material {
-  FeatureAxes axes;
-  std::vector<PatchSource> levels;
-};
-
-/// Where each exemplar begins on a level; nothing for a single one.
-std::vector<int> parts_of(const United& united, int exemplars, int level) {
-  std::vector<int> parts;
-  for (int x = 0; exemplars > 1 && std::ssize(parts) < exemplars; ++x)
-    if (united.source(x << level, 0).exemplar >= parts.size()) parts.push_back(x);
-  return parts;
-}
-
-/// Usable origins of each exemplar on a level.
-std::vector<int> count_usable(const PatchSource& source, const United& united, int exemplars,
-                              int level) {
-  std::vector<int> counts(static_cast<std::size_t>(exemplars));
-  const Size size = source.origins();
-  for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < size.width; ++x)
-      if (source.is_usable({x, y})) ++counts[united.source(x << level, y).exemplar];
-  return counts;
-}
-
-/// Whether each exemplar that matters on the finest level has origins enough on another.
-bool are_enough(const std::vector<int>& finest, const std::vector<int>& counts) {
-  double all = 0;
-  for (const int count : finest) all += count;
-  for (std::size_t i = 0; i < counts.size(); ++i)
-    if (finest[i] > 0.02 * all && counts[i] < std::min(fewest_origins, finest[i])) return false;
-  return true;
-}
-
-Material make_material(const PatchmatchParams& params, double structure, const United& united,
-                       int exemplars, Size texture) {
-  const Exemplar& whole = united.exemplar();
-  Exemplar mirrored;  // of a small one
-  const bool small = std::min(whole.image.width, whole.image.height) < smallest_side;
-  if (small) {
-    mirrored.image = at_least(whole.image, smallest_side);
-    if (!whole.mask.empty()) mirrored.mask = at_least(whole.mask, smallest_side);
-    if (!whole.guide.empty()) mirrored.guide = at_least(whole.guide, smallest_side);
-  }
-  const Exemplar& exemplar = small ? mirrored : whole;
-  Material material;
-  PatchSource source{
-      .features = patch_features(exemplar.image, structure, material.axes),
-      .guide = united.guide().empty() ? std::vector<Image>() : guide_planes(exemplar.guide)};
-  Image mask = exemplar.mask;
-  const Size patch{field_patch, field_patch};
-  if (!mask.empty()) source.usable = usable_origins(mask, source.features.size(), patch);
-  source.parts = parts_of(united, exemplars, 0);
-  const std::vector<int> finest = count_usable(source, united, exemplars, 0);
-  if (std::ranges::all_of(finest, [](int n) { return n == 0; }))
-    throw Error("patchmatch copies patches of {}×{} pixels: the exemplars' masks leave none whole",
-                field_patch, field_patch);
-  const int count = level_count(params, exemplar.image.size(), texture);
-  material.levels.push_back(std::move(source));
-  while (static_cast<int>(material.levels.size()) < count) {
-    const PatchSource& finer = material.levels.back();
-    PatchSource next{.features = halved(finer.features)};
-    const int level = static_cast<int>(material.levels.size());
-    next.parts = parts_of(united, exemplars, level);
-    for (const Image& plane : finer.guide) next.guide.push_back(halved(plane));
-    if (!mask.empty()) {
-      mask = halved_mask(mask);
-      next.usable = usable_origins(mask, next.features.size(), patch);
-      if (!are_enough(finest, count_usable(next, united, exemplars, level))) break;
-    }
-    material.levels.push_back(std::move(next));
-  }
-  return material;
-}
-
-/// How many levels a hole of some width needs: so many that it is narrow, and that there are few
-/// places to look for the first of it.
-int levels_for(const Material& material, int width) {
-  int levels = 1;
-  for (; levels < std::ssize(material.levels); ++levels) {
-    const Size origins = material.levels[static_cast<std::size_t>(levels - 1)].origins();
-    if (width >> (levels - 1) <= narrow_hole && area(origins) <= few_origins) break;
-  }
-  return levels;
 }
 
 /// A window's part of a map of the target's size.
@@ -250,13 +161,6 @@ void write_sources(const PatchHole& hole, const PatchSource& source, Size exempl
     }
 }
 
-/// The part of the origins that may be used.
-double usable_share(const PatchSource& source) {
-  if (source.usable.empty()) return 1;
-  const auto count = std::ranges::count_if(source.usable, [](auto v) { return v != 0; });
-  return static_cast<double>(count) / static_cast<double>(source.usable.size());
-}
-
 /// Makes the holes on all levels.
 void optimise(const PatchmatchParams& params, Material& material, std::vector<PatchHole>& holes,
               const Random& random, const Control& control) {
@@ -279,9 +183,11 @@ void optimise(const PatchmatchParams& params, Material& material, std::vector<Pa
     for_each_hole(holes, level, [&](PatchHole& hole, std::size_t i) {
       start(hole, level, source, places, random.stream(1).stream(i));
     });
-    std::optional<PatchPenalty> penalty;
-    if (!fills) penalty.emplace(holes.front().field.size, source.origins());
     const double share = usable_share(source);
+    std::optional<PatchPenalty> penalty;
+    if (!fills ||
+        (holes.size() == 1 && count_patches(holes.front()) > share * area(source.origins())))
+      penalty.emplace(holes.front().field.size, source.origins());
     for (int i = 0; i < iterations(level); ++i) {
       const Random pass = random.stream(2).stream(static_cast<std::uint64_t>(progress.step));
       std::vector<double> energies(holes.size());
@@ -321,8 +227,12 @@ Texture directed_patchmatch(const PatchmatchParams& params, const Request& reque
       tiles_x(asked.tile) ? asked.size.width : std::max(asked.size.width, smallest_side),
       tiles_y(asked.tile) ? asked.size.height : std::max(asked.size.height, smallest_side)};
   const bool fits = size == asked.size;
-  const Target wider = fits ? Target{} : padded(asked, size);
-  const Target& target = fits ? asked : wider;
+  const bool fills = std::ranges::any_of(asked.mask.pixels, [](float v) { return v <= 0.5f; });
+  Target changed;
+  if (!fits) changed = padded(asked, size);
+  if (fits && !fills) changed = asked;
+  if (!fills) changed.known = changed.mask = {};
+  const Target& target = fits && fills ? asked : changed;
   Image wider_guide;
   if (!fits) wider_guide = padded({.size = asked.size, .guide = united.guide()}, size).guide;
   const Image& guide = fits ? united.guide() : wider_guide;
@@ -360,13 +270,24 @@ Texture directed_patchmatch(const PatchmatchParams& params, const Request& reque
 
 Cost estimate_directed(const PatchmatchParams& params, const RequestSize& request) {
   double samples = 0;
-  for (const ExemplarSize& exemplar : request.exemplars) samples += area(exemplar.size);
-  const int channels = request.exemplars.front().channels;
-  const double pixels = area(request.size) * request.made;
+  bool copied = request.exemplars.size() > 1;  // to one picture
+  for (const ExemplarSize& exemplar : request.exemplars) {
+    samples += area(exemplar.size);
+    copied |= exemplar.mask;
+  }
+  const double channels = request.exemplars.front().channels;
+  const double target = area(request.size), made = target * request.made;
+  const int planes = (request.exemplars.front().guide ? 1 : 0) + (request.weights ? 1 : 0);
+  // A level has a quarter of the work of the next finer one, but more iterations.
   const double iterations = params.iterations * 4.0 / 3 + more_iterations * 4.0 / 9;
-  return {
-      .bytes = area(request.size) * 4.0 * channels + pixels * 64 + samples * (64 + 4.0 * channels),
-      .seconds = pixels * iterations * (45 + 15.0 * params.tries) * 1e-9};
+  // A fill works on what is about its holes, too, and grows their first pixels.
+  const double tries = params.tries + (request.known ? more_tries : 0);
+  const double work = request.known ? 3.6 : 1.3;
+  return {.bytes = target * (request.known ? 16 + 8 * channels : 12 + 4 * channels) +
+                   made * (64 + 24.0 * planes) +
+                   samples * (52 + 24.0 * planes + (copied ? 8 : 4) * channels),
+          .seconds = made * iterations * (45 + 15 * tries) * 1e-9 * (work + 0.5 * planes) +
+                     (samples + target) * 1.1e-7};
 }
 
 }  // namespace gramloom

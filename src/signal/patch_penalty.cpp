@@ -85,6 +85,7 @@ void for_each_square_row(const PatchPenalty& penalty, const PatchField& field, F
   for (int y = 0; y < field.size.height; ++y) {
     if (y % side == 0) finish_down_to(penalty.shift(0, y, {0, penalty.origins.height}).y);
     for (int x = 0; x < field.size.width; ++x) {
+      if (!field.looks_for(field.index(x, y))) continue;
       const PatchOrigin shift = penalty.shift(x, y, field.nearest[field.index(x, y)]);
       ++counts.at(shift.y)[shift.x];
     }
@@ -115,8 +116,14 @@ PatchPenalty::PatchPenalty(Size field_, Size origins_)
 std::vector<float> usage(const PatchField& field, Size origins) {
   const auto width = static_cast<std::size_t>(origins.width);
   std::vector<float> used(area(origins)), rows(used.size());
-  const float share = static_cast<float>(used.size()) / static_cast<float>(field.nearest.size());
-  for (const SmallOrigin o : field.nearest) used[o.y * width + o.x] += share;
+  const auto patches = field.confidence.empty()
+                           ? std::ssize(field.nearest)
+                           : std::ranges::count_if(field.confidence, [](float c) { return c > 0; });
+  const float share = static_cast<float>(used.size()) / static_cast<float>(patches);
+  for (std::size_t i = 0; i < field.nearest.size(); ++i) {
+    const SmallOrigin o = field.nearest[i];
+    if (field.looks_for(i)) used[o.y * width + o.x] += share;
+  }
   for (int y = 0; y < origins.height; ++y) {
     const std::size_t row = static_cast<std::size_t>(y) * width;
     for (int x = 0; x < origins.width; ++x) {
