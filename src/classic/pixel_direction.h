@@ -20,6 +20,7 @@ struct Task {
   const Image& guide_weight;
   int shares = 0;  // the guide's last channels are exemplars' shares: constant within each
   ExemplarQuota quota = {};
+  bool same_picture = false;  // known pixels are the exemplar's at the same place
 };
 
 /// What a task asks of a canvas at one level, beyond looking like the exemplar.

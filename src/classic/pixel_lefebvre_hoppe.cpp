@@ -145,9 +145,18 @@ class Correction {
     if (!matcher.aim.made.empty()) rim_ = rim(matcher.aim, canvas.tile, matcher.params.radius);
   }
 
-  /// Gives known pixels about those to be made the sources that they are most like: what is made
-  /// continues these.
-  void find_rim() {
+  /// Gives known pixels about those to be made the sources that they are most like, of the same
+  /// picture themselves: what is made continues these.
+  void find_rim(bool same_picture) {
+    const Level& level = matcher_.level;
+    if (same_picture) {
+      for (std::size_t i = 0; i < rim_.size(); ++i)
+        if (rim_[i] != 0)
+          canvas_.source[i] =
+              level.nearest_usable({static_cast<int>(i) % canvas_.size.width * level.step,
+                                    static_cast<int>(i) / canvas_.size.width * level.step});
+      return;
+    }
     parallel_for(
         static_cast<std::int64_t>(rim_.size()), 64, [&](std::int64_t begin, std::int64_t end) {
           for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
@@ -250,7 +259,7 @@ Canvas lefebvre_hoppe(const PixelParams& params, const Task& task, Random random
     }
     const Matcher matcher(level, aims[i], params, random.stream(2 * i + 2));
     Correction correction(matcher, canvas, random.stream(2 * i + 2).stream(3));
-    if (l == count - 1) correction.find_rim();
+    if (l == count - 1) correction.find_rim(task.same_picture);
     const double pixels = std::pow(4.0, count - 1 - l);
     for (int pass = 0; pass < params.passes; ++pass, before += pixels)
       correction.pass([&](double done) {

@@ -6,10 +6,12 @@
 #include <optional>
 #include <utility>
 
+#include "classic/fill_windows.h"
 #include "classic/patch_features.h"
 #include "classic/patch_grid.h"
 #include "classic/quilt.h"
 #include "classic/quilt_labels.h"
+#include "core/error.h"
 #include "core/threads.h"
 #include "signal/united.h"
 
@@ -22,6 +24,8 @@ constexpr int smallest_guide_patch = 5;
 constexpr int attempts = 8;
 /// Of holes and where there is no patch_size: large patches would hide much, and fit nowhere.
 constexpr int largest_fill_patch = 64;
+/// Of patches from anything smaller there would be as many as pixels.
+constexpr int smallest_usable = 6;
 /// Smaller ones would hold nothing of a texture.
 constexpr int smallest_rim_patch = 12;
 
@@ -202,18 +206,20 @@ std::optional<QuiltGuide> make_guide(const QuiltingParams& params, const Task& t
 Size usable_size(const std::vector<Exemplar>& exemplars) {
   if (exemplars.size() == 1 && exemplars.front().mask.empty())
     return exemplars.front().image.size();
-  int side = std::numeric_limits<int>::max();
-  for (const Exemplar& exemplar : exemplars)
+  int side = std::numeric_limits<int>::max(), smallest = side;
+  for (const Exemplar& exemplar : exemplars) {
+    smallest = std::min({smallest, exemplar.image.width, exemplar.image.height});
     side = std::min({side, exemplar.image.width, exemplar.image.height,
                      exemplar.mask.empty() ? side : largest_usable_square(exemplar.mask)});
+  }
+  if (side < std::min(smallest, smallest_usable))
+    throw Error("quilting needs usable pieces of {0}×{0} pixels: an exemplar's mask leaves {1}×{1}",
+                smallest_usable, side);
   return {side, side};
 }
 
-}  // namespace
-
-Texture synthesise(const QuiltingParams& params, const Request& request, const Control& control) {
-  check_fields(params);
-  check_request<QuiltingParams>(request);
+Texture synthesise_whole(const QuiltingParams& params, const Request& request,
+                         const Control& control) {
   const United united(request);
   const Target& target = request.target;
   const Task task{
@@ -240,6 +246,19 @@ Texture synthesise(const QuiltingParams& params, const Request& request, const C
   if (done < patches) control.step(patches, patches);
   united.name_sources(quilt.source);
   return {std::move(quilt.canvas), {}, std::move(quilt.source)};
+}
+
+}  // namespace
+
+Texture synthesise(const QuiltingParams& params, const Request& request, const Control& control) {
+  check_fields(params);
+  check_request<QuiltingParams>(request);
+  const std::vector<FillWindow> windows =
+      fill_windows(request, 4);  // a patch costs as much as where it is sought is large
+  if (windows.empty()) return synthesise_whole(params, request, control);
+  return fill_by_windows(
+      request, windows, [&](const Request& part) { return synthesise_whole(params, part, {}); },
+      control);
 }
 
 Cost estimate(const QuiltingParams& params, const RequestSize& request) {
