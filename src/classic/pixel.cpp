@@ -38,15 +38,16 @@ Texture synthesise_whole(const PixelParams& params, const Request& request,
                          const Control& control) {
   const United united(request);
   const Target& target = request.target;
+  const ExemplarQuota quota(request, united);
   const pixel::Task task{united.exemplar(),
                          target.size,
                          target.tile,
                          target.known,
                          target.mask,
-                         united.guide(),
+                         quota.guide(united),
                          target.guide_weight,
                          united.guide().channels - target.guide.channels,
-                         ExemplarQuota(request, united),
+                         quota,
                          same_picture(request) == std::size_t{0}};
   SourceMap source = pixel::sources_of(sources(params, task, request.random, control));
   united.name_sources(source);

@@ -222,9 +222,9 @@ Texture synthesise_whole(const QuiltingParams& params, const Request& request,
                          const Control& control) {
   const United united(request);
   const Target& target = request.target;
-  const Task task{
-      united.exemplar(), target.size,    target.tile,         target.known,
-      target.mask,       united.guide(), target.guide_weight, ExemplarQuota(request, united)};
+  const ExemplarQuota quota(request, united);
+  const Task task{united.exemplar(), target.size,         target.tile,         target.known,
+                  target.mask,       quota.guide(united), target.guide_weight, quota};
   const Size usable = usable_size(request.exemplars);
   const int patch = patch_side(params, usable, !task.guide.empty(), !task.known.empty());
   const Grid grid = make_grid(params, patch, usable, task.size, task.tile);
