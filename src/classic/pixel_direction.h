@@ -57,24 +57,6 @@ std::vector<Aim> direct(std::vector<Level>& levels, const Task& task, int radius
 void add_direction(const Level& level, const Aim& aim, int x, int y, float weight,
                    std::vector<float>& errors);
 
-/// Samples of a level by their guide, so that ones with a wanted guide are found at random.
-class GuideCells {
- public:
-  GuideCells() = default;
-  GuideCells(const Level& level, Random random);
-
-  bool empty() const { return members_.empty(); }
-  /// One whose guide is about this.
-  int draw(const float* guide, Random& random) const;
-
- private:
-  std::size_t nearest(const float* guide) const;
-
-  std::size_t channels_ = 0;
-  std::vector<float> centres_;  // [cell][channel]
-  std::vector<std::vector<int>> members_;
-};
-
 /// Which pixels lie within `radius` of one that is made, and are known themselves.
 std::vector<std::uint8_t> rim(const Aim& aim, Tile tile, int radius);
 
