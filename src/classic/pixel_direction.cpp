@@ -151,11 +151,12 @@ void halve_known(Image& colours, std::vector<std::uint8_t>& made) {
 }  // namespace
 
 float Aim::guide_error(const Level& level, int sample, int x, int y) const {
-  const auto channels = static_cast<std::size_t>(guide.channels);
-  return *map_at(weight, x, y) * 0.5f *
-         squared_distance(guide.at(x, y),
-                          level.guide.pixels.data() + static_cast<std::size_t>(sample) * channels,
-                          channels);
+  const auto channels = static_cast<std::size_t>(guide.channels), own = channels / 2;
+  const float *wanted = guide.at(x, y),
+              *there = level.guide.pixels.data() + static_cast<std::size_t>(sample) * channels;
+  const float squared_weight = *map_at(weight, x, y);
+  return 0.5f * (squared_weight * squared_distance(wanted, there, own) +
+                 std::min(squared_weight, 1.0f) * squared_distance(wanted + own, there + own, own));
 }
 
 int level_count(int asked, const Task& task) {

@@ -37,8 +37,9 @@ struct Aim {
            static_cast<std::size_t>(x);
   }
   /// Of pixel (x, y), when it comes from this sample of the level: weight² · |difference of
-  /// guides|², half of the pixel's own and half of the means about it, so that what lies near the
-  /// border of a label comes from near one.
+  /// guides|², half of it the pixel's own and half that of means about it, so that what lies near
+  /// the border of a label comes from near one. The means count by a weight of at most 1: however
+  /// hard a label is, near its border there is to be texture.
   float guide_error(const Level& level, int sample, int x, int y) const;
 };
 
