@@ -8,6 +8,7 @@ namespace {
 
 /// At an eighth beyond its part an exemplar is as bad as one that has nothing in common.
 constexpr double steepness = 8;
+constexpr double least_share = 1e-6;
 
 double usable_pixels(const Exemplar& exemplar) {
   if (exemplar.mask.empty()) return 1.0 * exemplar.image.width * exemplar.image.height;
@@ -19,11 +20,15 @@ double usable_pixels(const Exemplar& exemplar) {
 
 ExemplarQuota::ExemplarQuota(const Request& request, const United& united) {
   const Target& target = request.target;
-  if (request.exemplars.size() == 1 || !united.guide().empty() || !target.known.empty()) return;
+  const bool even = target.weights.empty() || target.weights.size() == Size{1, 1};
+  if (request.exemplars.size() == 1 || !even || !target.guide.empty() || !target.known.empty())
+    return;
+  for (std::size_t i = 0; i < request.exemplars.size(); ++i)
+    shares_.push_back(target.weights.empty() ? usable_pixels(request.exemplars[i])
+                                             : double{target.weights.pixels[i]});
   double all = 0;
-  for (const Exemplar& exemplar : request.exemplars) all += usable_pixels(exemplar);
-  for (const Exemplar& exemplar : request.exemplars)
-    shares_.push_back(usable_pixels(exemplar) / all);
+  for (const double share : shares_) all += share;
+  for (double& share : shares_) share = std::max(share / all, least_share);
   made_.assign(shares_.size(), 0);
   for (int x = 0; x < united.exemplar().image.width; ++x)
     exemplar_.push_back(united.source(x, 0).exemplar);

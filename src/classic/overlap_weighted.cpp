@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/simd.h"
 #include "core/threads.h"
 #include "signal/fourier.h"
 
@@ -15,6 +16,41 @@ constexpr int block_side = 384;
 constexpr int block_patches = 4;
 
 std::size_t to_size(int value) { return static_cast<std::size_t>(value); }
+
+/// sum += a · conj(b), of complex numbers whose parts follow each other.
+GRAMLOOM_SIMD void add_products(const float* __restrict a, const float* __restrict b,
+                                float* __restrict sum, int count) {
+  for (int i = 0; i < 2 * count; i += 2) {
+    sum[i] += a[i] * b[i] + a[i + 1] * b[i + 1];
+    sum[i + 1] += a[i + 1] * b[i] - a[i] * b[i + 1];
+  }
+}
+
+/// The same of a column of OpenCV's packed spectrum that is real but for its own transform: Re 0,
+/// Re 1, Im 1, Re 2, …, and at an even number of rows a real one at the end.
+void add_column_products(const cv::Mat& a, const cv::Mat& b, cv::Mat& sum, int column) {
+  const auto add_real = [&](int row) {
+    sum.at<float>(row, column) += a.at<float>(row, column) * b.at<float>(row, column);
+  };
+  add_real(0);
+  for (int row = 1; row + 1 < a.rows; row += 2) {
+    const float ar = a.at<float>(row, column), ai = a.at<float>(row + 1, column);
+    const float br = b.at<float>(row, column), bi = b.at<float>(row + 1, column);
+    sum.at<float>(row, column) += ar * br + ai * bi;
+    sum.at<float>(row + 1, column) += ai * br - ar * bi;
+  }
+  if (a.rows % 2 == 0) add_real(a.rows - 1);
+}
+
+/// sum += a · conj(b), spectra as cv::dft packs those of real planes. cv::mulSpectrums() takes
+/// several times as long.
+void add_spectra(const cv::Mat& a, const cv::Mat& b, cv::Mat& sum) {
+  const int pairs = (a.cols - 1) / 2;
+  add_column_products(a, b, sum, 0);
+  for (int row = 0; row < a.rows; ++row)
+    add_products(a.ptr<float>(row) + 1, b.ptr<float>(row) + 1, sum.ptr<float>(row) + 1, pairs);
+  if (a.cols > 1 && a.cols % 2 == 0) add_column_products(a, b, sum, a.cols - 1);
+}
 
 }  // namespace
 
@@ -30,7 +66,7 @@ WeightedErrors::Axis WeightedErrors::cover(int exemplar, int patch) {
 cv::Mat WeightedErrors::spectrum(const cv::Mat& plane, int rows) const {
   cv::Mat padded = cv::Mat::zeros(down_.length, across_.length, CV_32F);
   plane.copyTo(padded({0, 0, plane.cols, plane.rows}));
-  cv::dft(padded, padded, 0, rows);
+  cv::dft(padded, padded, 0, nonzero_rows(rows));
   return padded;
 }
 
@@ -80,20 +116,17 @@ void WeightedErrors::add_to(std::vector<float>& errors, const Image& patch,
   wanted.push_back(spectrum(weight, patch.height));
 
   parallel_for(across_.count() * down_.count(), 1, [&](std::int64_t begin, std::int64_t end) {
-    cv::Mat sum, product;
+    cv::Mat sum(down_.length, across_.length, CV_32F);
     for (auto block = static_cast<int>(begin); block < end; ++block) {
       const int left = block % across_.count() * across_.valid;
       const int top = block / across_.count() * down_.valid;
       const int rows = std::min(down_.valid, down_.positions - top);
       const int columns = std::min(across_.valid, across_.positions - left);
       const std::size_t first = to_size(block) * wanted.size();
-      cv::mulSpectrums(spectra_[first + wanted.size() - 1], wanted.back(), sum, 0, true);
-      for (std::size_t c = 0; c + 1 < wanted.size(); ++c) {
-        if (wanted[c].empty()) continue;
-        cv::mulSpectrums(spectra_[first + c], wanted[c], product, 0, true);
-        sum += product;
-      }
-      cv::dft(sum, sum, cv::DFT_INVERSE | cv::DFT_SCALE | cv::DFT_REAL_OUTPUT, rows);
+      sum.setTo(0);
+      for (std::size_t c = 0; c < wanted.size(); ++c)
+        if (!wanted[c].empty()) add_spectra(spectra_[first + c], wanted[c], sum);
+      cv::dft(sum, sum, cv::DFT_INVERSE | cv::DFT_SCALE | cv::DFT_REAL_OUTPUT, nonzero_rows(rows));
       for (int v = 0; v < rows; ++v) {
         const float* from = sum.ptr<float>(v);
         float* to = errors.data() + to_size(top + v) * to_size(across_.positions) + left;

@@ -39,6 +39,8 @@ class WeightedErrors {
     int count() const { return (positions + valid - 1) / valid; }
   };
   static Axis cover(int exemplar, int patch);
+  /// As cv::dft() takes it, which refuses it for a single column.
+  int nonzero_rows(int rows) const { return across_.length > 1 ? rows : 0; }
   cv::Mat spectrum(const cv::Mat& plane, int rows) const;
 
   Size patch_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "classic/fill_windows.h"
 #include "classic/known_pixels.h"
 #include "classic/pixel_algorithms.h"
 #include "core/error.h"
@@ -33,28 +34,39 @@ void check_algorithm(const PixelParams& params, const RequestSize& request) {
         "target's mask is given (lefebvre_hoppe and efros_leung can)");
 }
 
+Texture synthesise_whole(const PixelParams& params, const Request& request,
+                         const Control& control) {
+  const United united(request);
+  const Target& target = request.target;
+  const ExemplarQuota quota(request, united);
+  const pixel::Task task{united.exemplar(),
+                         target.size,
+                         target.tile,
+                         target.known,
+                         target.mask,
+                         quota.guide(united),
+                         target.guide_weight,
+                         united.guide().channels - target.guide.channels,
+                         quota,
+                         same_picture(request) == std::size_t{0}};
+  SourceMap source = pixel::sources_of(sources(params, task, request.random, control));
+  united.name_sources(source);
+  Texture texture = texture_of(std::move(source), request.exemplars);
+  keep_known(texture.image, target);
+  return texture;
+}
+
 }  // namespace
 
 Texture synthesise(const PixelParams& params, const Request& request, const Control& control) {
   check_fields(params);
   check_request<PixelParams>(request);
   check_algorithm(params, size_of(request));
-  const United united(request);
-  const Target& target = request.target;
-  const pixel::Task task{united.exemplar(),
-                         target.size,
-                         target.tile,
-                         target.known,
-                         target.mask,
-                         united.guide(),
-                         target.guide_weight,
-                         united.guide().channels - target.guide.channels,
-                         ExemplarQuota(request, united)};
-  SourceMap source = pixel::sources_of(sources(params, task, request.random, control));
-  united.name_sources(source);
-  Texture texture = texture_of(std::move(source), request.exemplars);
-  keep_known(texture.image, target);
-  return texture;
+  const std::vector<FillWindow> windows = fill_windows(request, 0.7);  // what costs is the exemplar
+  if (windows.empty()) return synthesise_whole(params, request, control);
+  return fill_by_windows(
+      request, windows, [&](const Request& part) { return synthesise_whole(params, part, {}); },
+      control);
 }
 
 Cost estimate(const PixelParams& params, const RequestSize& request) {

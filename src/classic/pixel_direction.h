@@ -20,6 +20,7 @@ struct Task {
   const Image& guide_weight;
   int shares = 0;  // the guide's last channels are exemplars' shares: constant within each
   ExemplarQuota quota = {};
+  bool same_picture = false;  // known pixels are the exemplar's at the same place
 };
 
 /// What a task asks of a canvas at one level, beyond looking like the exemplar.
@@ -36,8 +37,9 @@ struct Aim {
            static_cast<std::size_t>(x);
   }
   /// Of pixel (x, y), when it comes from this sample of the level: weight² · |difference of
-  /// guides|², half of the pixel's own and half of the means about it, so that what lies near the
-  /// border of a label comes from near one.
+  /// guides|², half of it the pixel's own and half that of means about it, so that what lies near
+  /// the border of a label comes from near one. The means count by a weight of at most 1: however
+  /// hard a label is, near its border there is to be texture.
   float guide_error(const Level& level, int sample, int x, int y) const;
 };
 
@@ -55,24 +57,6 @@ std::vector<Aim> direct(std::vector<Level>& levels, const Task& task, int radius
 /// pixel is made; those of samples that may not be used become out of reach.
 void add_direction(const Level& level, const Aim& aim, int x, int y, float weight,
                    std::vector<float>& errors);
-
-/// Samples of a level by their guide, so that ones with a wanted guide are found at random.
-class GuideCells {
- public:
-  GuideCells() = default;
-  GuideCells(const Level& level, Random random);
-
-  bool empty() const { return members_.empty(); }
-  /// One whose guide is about this.
-  int draw(const float* guide, Random& random) const;
-
- private:
-  std::size_t nearest(const float* guide) const;
-
-  std::size_t channels_ = 0;
-  std::vector<float> centres_;  // [cell][channel]
-  std::vector<std::vector<int>> members_;
-};
 
 /// Which pixels lie within `radius` of one that is made, and are known themselves.
 std::vector<std::uint8_t> rim(const Aim& aim, Tile tile, int radius);

@@ -3,122 +3,13 @@
 #include <opencv2/imgproc.hpp>
 
 #include "classic/pixel_algorithms.h"
-#include "classic/pixel_features.h"
-#include "classic/pixel_match.h"
+#include "classic/pixel_matcher.h"
 #include "classic/pixel_plane.h"
 #include "classic/pixel_quilted_start.h"
 #include "core/threads.h"
 
 namespace gramloom::pixel {
 namespace {
-
-/// Samples with the wanted guide that are tried for each pixel, beside those that continue others.
-constexpr int drawn_by_guide = 8;
-
-/// What finds the best source for a pixel at one level.
-struct Matcher {
-  const Level& level;
-  const Aim& aim;
-  const PixelParams& params;
-  Projection projection;
-  std::vector<Feature> features;
-  std::vector<Point> similar;  // [sample][candidates]
-  Reference reference;         // for the exact search
-  std::vector<float> weights;
-  float all_weights = 0;
-  GuideCells cells;
-
-  Matcher(const Level& level_, const Aim& aim_, const PixelParams& params_, Random random)
-      : level(level_),
-        aim(aim_),
-        params(params_),
-        projection(make_projection(level, params.radius, random.stream(0))),
-        features(make_features(level, projection)),
-        similar(similar_samples(level, features, params.candidates, distance_apart(level),
-                                random.stream(1))),
-        reference(level, params.search == PixelSearch::exact ? params.radius : 0),
-        weights(gaussian_weights(params.radius)) {
-    for (const float weight : weights) all_weights += weight;
-    if (!aim.guide.empty()) cells = GuideCells(level, random.stream(2));
-  }
-
-  /// `random`: of this pixel in this pass.
-  Point best(const Canvas& canvas, const Plane& plane, int x, int y, Random random) const {
-    return params.search == PixelSearch::exact ? best_of_all(plane, x, y)
-                                               : best_of_coherent(canvas, plane, x, y, random);
-  }
-  /// By features, of all samples.
-  Point nearest(const Plane& plane, int x, int y) const;
-
- private:
-  Point best_of_coherent(const Canvas& canvas, const Plane& plane, int x, int y,
-                         Random random) const;
-  Point best_of_all(const Plane& plane, int x, int y) const;
-  bool guides(int x, int y) const { return !aim.guide.empty() && aim.is_made(aim.index(x, y)); }
-};
-
-Point Matcher::best_of_coherent(const Canvas& canvas, const Plane& plane, int x, int y,
-                                Random random) const {
-  const Feature wanted = plane.feature(projection, x, y);
-  const auto candidates = static_cast<std::size_t>(params.candidates);
-  std::array<Point, 9 * 16> tried;
-  auto end = tried.begin();
-  Point best = canvas.at(x, y);
-  float least = INFINITY;
-  const bool guided = guides(x, y);
-  const auto consider = [&](Point p) {
-    const int sample = level.index(p);
-    if (!level.may_use(sample)) return;
-    float distance = squared_distance(wanted, features[static_cast<std::size_t>(sample)]);
-    if (guided) distance += all_weights * aim.guide_error(level, sample, x, y);
-    if (distance < least) {
-      least = distance;
-      best = p;
-    }
-  };
-  for (int dy = -1; dy <= 1; ++dy)
-    for (int dx = -1; dx <= 1; ++dx) {
-      int near_x = x + dx, near_y = y + dy;
-      if (!canvas.wrap(near_x, near_y)) continue;
-      const auto source = static_cast<std::size_t>(level.index(canvas.at(near_x, near_y)));
-      for (std::size_t i = source * candidates; i < (source + 1) * candidates; ++i) {
-        const Point p{similar[i].x - dx * level.step, similar[i].y - dy * level.step};
-        if (!level.contains(p) || std::find(tried.begin(), end, p) != end) continue;
-        *end++ = p;
-        consider(p);
-      }
-    }
-  if (guided)
-    for (int i = 0; i < drawn_by_guide; ++i)
-      consider(level.point(cells.draw(aim.guide.at(x, y), random)));
-  return best;
-}
-
-Point Matcher::best_of_all(const Plane& plane, int x, int y) const {
-  std::vector<Known> neighbourhood;
-  auto weight = weights.begin();
-  for (int dy = -params.radius; dy <= params.radius; ++dy)
-    for (int dx = -params.radius; dx <= params.radius; ++dx)
-      neighbourhood.push_back({reference.offset(dx, dy), *weight++, plane.at(x + dx, y + dy)});
-  auto errors = reference.errors(neighbourhood);
-  add_direction(level, aim, x, y, all_weights, errors);
-  return level.point(
-      static_cast<int>(std::min_element(errors.begin(), errors.end()) - errors.begin()));
-}
-
-Point Matcher::nearest(const Plane& plane, int x, int y) const {
-  const Feature wanted = plane.feature(projection, x, y);
-  int best = 0;
-  float least = INFINITY;
-  for (int i = 0; i < level.count(); ++i) {
-    const float distance = squared_distance(wanted, features[static_cast<std::size_t>(i)]);
-    if (distance < least && level.may_use(i)) {
-      least = distance;
-      best = i;
-    }
-  }
-  return level.point(best);
-}
 
 /// 1 for each pixel within `radius` of one that is 1; edges meet.
 std::vector<std::uint8_t> widened(std::vector<std::uint8_t>& mask, Size size, int radius) {
@@ -145,9 +36,18 @@ class Correction {
     if (!matcher.aim.made.empty()) rim_ = rim(matcher.aim, canvas.tile, matcher.params.radius);
   }
 
-  /// Gives known pixels about those to be made the sources that they are most like: what is made
-  /// continues these.
-  void find_rim() {
+  /// Gives known pixels about those to be made the sources that they are most like, of the same
+  /// picture themselves: what is made continues these.
+  void find_rim(bool same_picture) {
+    const Level& level = matcher_.level;
+    if (same_picture) {
+      for (std::size_t i = 0; i < rim_.size(); ++i)
+        if (rim_[i] != 0)
+          canvas_.source[i] =
+              level.nearest_usable({static_cast<int>(i) % canvas_.size.width * level.step,
+                                    static_cast<int>(i) / canvas_.size.width * level.step});
+      return;
+    }
     parallel_for(
         static_cast<std::int64_t>(rim_.size()), 64, [&](std::int64_t begin, std::int64_t end) {
           for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
@@ -250,7 +150,7 @@ Canvas lefebvre_hoppe(const PixelParams& params, const Task& task, Random random
     }
     const Matcher matcher(level, aims[i], params, random.stream(2 * i + 2));
     Correction correction(matcher, canvas, random.stream(2 * i + 2).stream(3));
-    if (l == count - 1) correction.find_rim();
+    if (l == count - 1) correction.find_rim(task.same_picture);
     const double pixels = std::pow(4.0, count - 1 - l);
     for (int pass = 0; pass < params.passes; ++pass, before += pixels)
       correction.pass([&](double done) {

@@ -67,6 +67,9 @@ TEST(DirectedQuilting, UsesEveryExemplarAndMixesByWeights) {
   const auto free = shares(quilt(request), 2);
   EXPECT_GT(free[0], 0.25);
   EXPECT_GT(free[1], 0.25);
+  request.target.weights = Image(1, 1, 2, 1.0f);
+  request.target.weights.pixels[0] = 4;
+  EXPECT_NEAR(shares(quilt(request), 2)[0], 0.8, 0.15);
   request.target.weights = Image({160, 120}, 2);
   for (int y = 0; y < 120; ++y)
     for (int x = 0; x < 160; ++x) request.target.weights.at(x, y)[x < 80 ? 0 : 1] = 1;
