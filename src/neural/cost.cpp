@@ -58,12 +58,13 @@ double seconds_of_step(const NeuralParams& params, double evaluation, double pic
 }
 
 // One step of the layout: every fourth patch against all references, and the prices' part of them.
-double seconds_of_flow(const NeuralParams& params, double pixels, double of_exemplar) {
-  constexpr double dimensions = 48, of_prices = 1.5;
-  return of_prices * pixels / 4 *
-             static_cast<double>(
-                 params.references(static_cast<std::int64_t>(of_exemplar), pixels)) *
-             dimensions * 2 / matrix_operations_per_second +
+double seconds_of_flow(const NeuralParams& params, double pixels, double of_exemplar,
+                       bool looks_at_all) {
+  constexpr double dimensions = 48, of_prices = 1.5, most = 16384;
+  const auto patches = static_cast<std::int64_t>(of_exemplar);
+  const double references = looks_at_all ? std::min(of_exemplar, most)
+                                         : static_cast<double>(params.references(patches, pixels));
+  return of_prices * pixels / 4 * references * dimensions * 2 / matrix_operations_per_second +
          pixels * 2e-7;
 }
 
@@ -101,7 +102,9 @@ Cost estimate(const NeuralParams& asked, const RequestSize& request) {
   const Size canvas = request.known ? target.size : canvas_size(params, target);
   LossSize size = loss_size(params, joined_exemplars(request), canvas, channels);
   if (request.known) size.result *= counted_share(request.made);
-  const LossCost loss = loss_cost(params, size);
+  LossSize compared = size;  // each patch with one of the exemplar's
+  if (request.known || request.guide) compared.exemplar = size.result;
+  const LossCost loss = loss_cost(params, compared);
   const bool remembers = std::find(params.optimizer.begin(), params.optimizer.end(),
                                    Optimizer::lbfgs) != params.optimizer.end();
   // A checkpoint is put together in memory: all that the optimiser keeps is there once more.
@@ -118,8 +121,9 @@ Cost estimate(const NeuralParams& asked, const RequestSize& request) {
     const bool flow = params.layout == Layout::flow;
     const double area = std::pow(flow ? 0.5 : params.level_factor, 2 * level);
     if (flow)
-      cost.seconds += at_level(params.flow_steps, level) *
-                      seconds_of_flow(params, size.result * area, size.exemplar * area);
+      cost.seconds +=
+          at_level(params.flow_steps, level) *
+          seconds_of_flow(params, size.result * area, size.exemplar * area, request.known);
     cost.seconds += at_level(params.iterations, level) *
                     seconds_of_step(params, loss.seconds * area, size.values() * area,
                                     at_level(params.optimizer, level));

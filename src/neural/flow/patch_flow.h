@@ -6,7 +6,6 @@
 
 #include "core/random.h"
 #include "core/request.h"
-#include "neural/flow/band_match.h"
 #include "neural/flow/params.h"
 #include "neural/flow/periodic_part.h"
 #include "neural/guidance.h"
@@ -61,11 +60,6 @@ class PatchFlow {
  private:
   struct Octave;
   Octave& octave(int index, bool coarsest);
-  // What the guidance says on this octave, for patches of that side.
-  void direct(Octave& octave, int side) const;
-  // The regions of its exemplar whose bands are matched in those of its picture: of like guides,
-  // usable, made.
-  Regions regions_of(Octave& octave) const;
 
   FlowParams params_;
   at::Tensor exemplar_;  // of mean square 1
