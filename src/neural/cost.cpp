@@ -58,12 +58,13 @@ double seconds_of_step(const NeuralParams& params, double evaluation, double pic
 }
 
 // One step of the layout: every fourth patch against all references, and the prices' part of them.
-double seconds_of_flow(const NeuralParams& params, double pixels, double of_exemplar,
-                       bool looks_at_all) {
-  constexpr double dimensions = 48, of_prices = 1.5, most = 16384;
+double seconds_of_flow(const NeuralParams& params, double pixels, double of_exemplar, bool fills) {
+  constexpr double dimensions = 48, of_prices = 1.5;
   const auto patches = static_cast<std::int64_t>(of_exemplar);
-  const double references = looks_at_all ? std::min(of_exemplar, most)
-                                         : static_cast<double>(params.references(patches, pixels));
+  const double references =
+      fills ? static_cast<double>(
+                  std::min(patches, looked_at_for_a_fill(static_cast<std::int64_t>(pixels / 4))))
+            : static_cast<double>(params.references(patches, pixels));
   return of_prices * pixels / 4 * references * dimensions * 2 / matrix_operations_per_second +
          pixels * 2e-7;
 }

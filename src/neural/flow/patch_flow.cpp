@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "neural/directed_settings.h"
 #include "neural/flow/band_match.h"
 #include "neural/flow/memory.h"
 #include "neural/flow/nearest.h"
@@ -24,7 +25,6 @@ namespace gramloom::neural {
 namespace {
 
 constexpr int axes_kept = 48;
-constexpr std::int64_t most_looked_at_for_a_fill = 16384;
 constexpr double window_spread = 0.25;  // of a patch's side
 constexpr double price_spread = 0.25;   // likewise: patches that lie this near are one
 constexpr float courses_time = 0.45f;   // at which the courses are laid out
@@ -197,8 +197,9 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
   const std::int64_t patches = o.guidance ? std::ssize(o.guidance->usable())
                                           : std::int64_t{o.places.width} * o.places.height;
   const double pixels = static_cast<double>(o.size.width) * o.size.height;
-  const std::int64_t looked_at = o.fills() ? std::min(patches, most_looked_at_for_a_fill)
-                                           : params_.references(patches, pixels);
+  const std::int64_t looked_at = o.fills()
+                                     ? std::min(patches, looked_at_for_a_fill(std::ssize(queries)))
+                                     : params_.references(patches, pixels);
   for (const std::int64_t i : draw(looked_at, patches, at_step(Stream::references)))
     references.push_back(o.guidance ? o.guidance->usable()[static_cast<std::size_t>(i)]
                                     : PatchPlace{static_cast<int>(i % o.places.width),
