@@ -14,8 +14,11 @@ using namespace neural;
 // Measured on two cores.
 constexpr double start_seconds = 0.5;  // of the libraries
 constexpr double seconds_per_step = 5e-4;
-constexpr double evaluations_per_step = 1.1;  // of L-BFGS
-constexpr double optimiser_values = 9;        // in memory, for each of the picture's
+constexpr double evaluations_per_step = 1.1;        // of L-BFGS
+constexpr double seconds_per_pixel_of_fill = 5e-7;  // known or made, in a step of a layout
+constexpr double pictures_of_fill = 12;
+constexpr double directed_patches = 2.5;  // seconds, where each has its own place and goal
+constexpr double optimiser_values = 9;    // in memory, for each of the picture's
 
 // Which part of a fill's patches is compared: those with a pixel of a hole.
 double counted_share(double made) { return std::min(1.0, 1.3 * made + 0.01); }
@@ -58,12 +61,14 @@ double seconds_of_step(const NeuralParams& params, double evaluation, double pic
 }
 
 // One step of the layout: every fourth patch against all references, and the prices' part of them.
-double seconds_of_flow(const NeuralParams& params, double pixels, double of_exemplar) {
+double seconds_of_flow(const NeuralParams& params, double pixels, double of_exemplar, bool fills) {
   constexpr double dimensions = 48, of_prices = 1.5;
-  return of_prices * pixels / 4 *
-             static_cast<double>(
-                 params.references(static_cast<std::int64_t>(of_exemplar), pixels)) *
-             dimensions * 2 / matrix_operations_per_second +
+  const auto patches = static_cast<std::int64_t>(of_exemplar);
+  const double references =
+      fills ? static_cast<double>(
+                  std::min(patches, looked_at_for_a_fill(static_cast<std::int64_t>(pixels / 4))))
+            : static_cast<double>(params.references(patches, pixels));
+  return of_prices * pixels / 4 * references * dimensions * 2 / matrix_operations_per_second +
          pixels * 2e-7;
 }
 
@@ -101,7 +106,10 @@ Cost estimate(const NeuralParams& asked, const RequestSize& request) {
   const Size canvas = request.known ? target.size : canvas_size(params, target);
   LossSize size = loss_size(params, joined_exemplars(request), canvas, channels);
   if (request.known) size.result *= counted_share(request.made);
-  const LossCost loss = loss_cost(params, size);
+  LossSize compared = size;  // each patch with one of the exemplar's
+  if (request.known || request.guide) compared.exemplar = size.result;
+  LossCost loss = loss_cost(params, compared);
+  if (request.known || request.guide || request.weights) loss.seconds *= directed_patches;
   const bool remembers = std::find(params.optimizer.begin(), params.optimizer.end(),
                                    Optimizer::lbfgs) != params.optimizer.end();
   // A checkpoint is put together in memory: all that the optimiser keeps is there once more.
@@ -113,13 +121,19 @@ Cost estimate(const NeuralParams& asked, const RequestSize& request) {
     cost.bytes =
         std::max(cost.bytes, size.result * (48 * (1 + 2 * params.remembered()) + 40) +
                                  sizeof(float) * channels * (8 * size.result + 8 * size.exemplar));
+  if (request.known)  // pictures and masks of the whole, most of which stays
+    cost.bytes += sizeof(float) * pictures_of_fill * channels * canvas.width * canvas.height;
   cost.seconds = start_seconds + size.of_exemplar.filters / 2 / matrix_operations_per_second;
   for (int level = 0; level < level_count(params, exemplar, target); ++level) {
     const bool flow = params.layout == Layout::flow;
     const double area = std::pow(flow ? 0.5 : params.level_factor, 2 * level);
     if (flow)
-      cost.seconds += at_level(params.flow_steps, level) *
-                      seconds_of_flow(params, size.result * area, size.exemplar * area);
+      cost.seconds +=
+          at_level(params.flow_steps, level) *
+          seconds_of_flow(params, size.result * area, size.exemplar * area, request.known);
+    if (flow && request.known)
+      cost.seconds += at_level(params.flow_steps, level) * area * canvas.width * canvas.height *
+                      seconds_per_pixel_of_fill;
     cost.seconds += at_level(params.iterations, level) *
                     seconds_of_step(params, loss.seconds * area, size.values() * area,
                                     at_level(params.optimizer, level));

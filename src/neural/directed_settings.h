@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <string_view>
 
 #include "core/request.h"
@@ -28,5 +30,11 @@ bool has_one_mix(const Target& target);
 Size smallest_exemplar(const RequestSize& request);
 /// The size of the exemplars as one picture (signal/united.h).
 Size joined_exemplars(const RequestSize& request);
+
+/// Of a fill, with so many patches to be filled, how many of the exemplar's are looked at: 16384,
+/// less above some 12,000, but at least 4096.
+inline std::int64_t looked_at_for_a_fill(std::int64_t queries) {
+  return std::clamp<std::int64_t>(200'000'000 / std::max<std::int64_t>(1, queries), 4096, 16384);
+}
 
 }  // namespace gramloom::neural

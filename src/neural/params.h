@@ -50,6 +50,11 @@ inline constexpr auto enum_names<Preset> = std::to_array<std::string_view>({"fas
 /// is changed step by step, coarse to fine, until its statistics are those of the exemplar. The
 /// loss is the weighted sum of the terms in loss/terms.h, each explained in its header. In a trace
 /// they have their names; those that look at a network have the layer's name too: gram_relu1_1.
+///
+/// A mask, several exemplars, known pixels, a guide and weights are honoured by patches alone: see
+/// loss/directed_sliced.h for the distance, flow/patch_flow.h and flow/first_fill.h for layouts.
+/// Where they are asked for, a preset's spectrum is left out, and what cannot be honoured, such as
+/// terms that look at a network, is refused by name (directed_settings.h).
 struct NeuralParams : LossParams, FlowParams {
   static constexpr std::string_view kind = "neural";
   static constexpr std::string_view summary =

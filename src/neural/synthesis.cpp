@@ -10,6 +10,7 @@
 #include "core/threads.h"
 #include "io/image_file.h"
 #include "neural/checkpoint.h"
+#include "neural/directed_levels.h"
 #include "neural/directed_settings.h"
 #include "neural/flow/first_fill.h"
 #include "neural/flow/patch_flow.h"
@@ -18,6 +19,7 @@
 #include "neural/layout.h"
 #include "neural/loss/directed_places.h"
 #include "neural/loss/loss.h"
+#include "neural/made_pixels.h"
 #include "neural/module.h"
 #include "neural/network/make_network.h"
 #include "neural/normal_numbers.h"
@@ -85,66 +87,6 @@ NeuralParams with_layout(NeuralParams params, const Exemplar& layered, const Req
       sparse_detail(extract_channels(exemplar, 0, colours)) > too_sparse_for_flow)
     params.layout = Layout::noise;
   return params;
-}
-
-// Levels that end where fewer than a few of the largest patches lie wholly in usable pixels, or,
-// where holes are to be filled, where the widest of them is as narrow as a part of a patch.
-int directed_levels(const NeuralParams& params, const Guidance& guidance, Size exemplar,
-                    int levels) {
-  if (params.levels > 0) return levels;
-  constexpr std::ptrdiff_t few = 64;
-  constexpr double narrow = 4;  // half its width
-  const auto patch = [&](int level) {
-    int side = *std::ranges::max_element(params.patch_sizes);
-    if (params.layout == Layout::flow)
-      side = std::max(side, at_level(params.flow_patch_sizes, level));
-    return side;
-  };
-  const auto has_patches = [&](int level) {
-    const Size size = level_size(params, exemplar, level);
-    if (guidance.usable.empty()) return true;
-    const auto origins =
-        usable_origins(scaled_mask(guidance.usable, size), size, {patch(level), patch(level)});
-    return std::ranges::count(origins, 1) >= few;
-  };
-  while (levels > 1 && !has_patches(levels - 1)) --levels;
-  if (!guidance.fills()) return levels;
-  const double wide = std::ranges::max(steps_to_known(guidance.made));
-  const auto is_narrow = [&](int level) {
-    return wide * level_size(params, exemplar, level).width / exemplar.width <= narrow;
-  };
-  while (levels > 1 && is_narrow(levels - 2)) --levels;
-  return levels;
-}
-
-// The pixels of a picture that a fill makes, (channels, pixels); without a fill, none of it.
-class MadePixels {
- public:
-  explicit MadePixels(const Guidance& guidance) {
-    std::vector<std::int64_t> places;
-    for (std::size_t i = 0; i < guidance.made.pixels.size(); ++i)
-      if (guidance.made.pixels[i] > 0) places.push_back(static_cast<std::int64_t>(i));
-    if (guidance.fills()) places_ = at::tensor(places, at::kLong);
-  }
-
-  bool all() const { return !places_.defined(); }
-  at::Tensor take(const at::Tensor& picture) const {
-    return picture.view({picture.size(0), -1}).index_select(1, places_);
-  }
-  void put(const at::Tensor& pixels, at::Tensor& picture) const {
-    picture.view({picture.size(0), -1}).index_copy_(1, places_, pixels);
-  }
-
- private:
-  at::Tensor places_;
-};
-
-void copy_known(const Target& target, Image& image) {
-  if (target.known.empty()) return;
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      if (*target.mask.at(x, y) <= 0.5f)
-        std::copy_n(target.known.at(x, y), image.channels, image.at(x, y));
 }
 
 // One synthesis under way.

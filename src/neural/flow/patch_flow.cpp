@@ -5,19 +5,17 @@
 #include <numeric>
 #include <optional>
 
+#include "neural/directed_settings.h"
 #include "neural/flow/band_match.h"
-#include "neural/flow/guided_patches.h"
 #include "neural/flow/memory.h"
 #include "neural/flow/nearest.h"
+#include "neural/flow/octave_guidance.h"
 #include "neural/flow/patch_axes.h"
 #include "neural/flow/prices.h"
 #include "neural/flow/vote.h"
-#include "neural/guide_draws.h"
-#include "neural/loss/directed_places.h"
 #include "neural/normal_numbers.h"
 #include "neural/openmp.h"
 #include "neural/picture.h"
-#include "neural/quarter_means.h"
 #include "neural/resample.h"
 #include "neural/settings.h"
 #include "signal/courses.h"
@@ -27,7 +25,6 @@ namespace gramloom::neural {
 namespace {
 
 constexpr int axes_kept = 48;
-constexpr std::int64_t most_looked_at_for_a_fill = 16384;
 constexpr double window_spread = 0.25;  // of a patch's side
 constexpr double price_spread = 0.25;   // likewise: patches that lie this near are one
 constexpr float courses_time = 0.45f;   // at which the courses are laid out
@@ -84,67 +81,6 @@ std::vector<float> likelihoods(const Neighbours& found, float t) {
   return weights;
 }
 
-// How much a pixel of an exemplar counts in a vote: the less, the less its guide is like that of
-// the place that it would be laid at.
-class GuideAgreement {
- public:
-  explicit GuideAgreement(const Guidance& guidance) : guidance_(guidance) {}
-
-  float operator()(int x, int y, int u, int v) const {
-    constexpr float sharpness = 0.5f, least = 1e-3f;
-    const float *wanted = guidance_.guide.at(x, y), *own = guidance_.exemplar_guide.at(u, v);
-    const float weight = *guidance_.guide_weight.at(x, y);
-    float distance = 0;
-    for (int c = 0; c < guidance_.guide.channels; ++c)
-      distance += (wanted[c] - own[c]) * (wanted[c] - own[c]);
-    return least + std::exp(-sharpness * weight * weight * distance);
-  }
-
- private:
-  const Guidance& guidance_;
-};
-
-// How much pixels count in a vote; nothing where each counts alike.
-Agreement agreement_of(const Guidance& guidance) {
-  if (guidance.guides()) return GuideAgreement(guidance);
-  if (guidance.fills()) return [](int, int, int, int) { return 1.0f; };
-  return {};
-}
-
-// What each patch of a fill counts in a vote, by how near its middle is to known pixels: what is
-// sure comes first (Wexler, Shechtman, Irani 2007, "Space-time completion of video", section 3.2).
-std::vector<float> confidences(const Image& made, int side) {
-  constexpr float base = 1.3f;
-  constexpr int most_steps = 12;
-  const std::vector<int> steps = steps_to_known(made);
-  std::vector<float> result(steps.size());
-  for (int y = 0; y < made.height; ++y)
-    for (int x = 0; x < made.width; ++x) {
-      const auto middle = made.index((x + side / 2) % made.width, (y + side / 2) % made.height);
-      result[made.index(x, y)] =
-          std::pow(base, -static_cast<float>(std::min(steps[middle], most_steps)));
-    }
-  return result;
-}
-
-// The mean price of places of about one guide becomes 0.
-void level_prices(const GuideGroups& groups, const std::vector<PatchPlace>& usable, Prices prices) {
-  const auto count = static_cast<std::size_t>(groups.middle.count());
-  std::vector<double> sums(count), numbers(count);
-  const auto price = [&](PatchPlace p) -> float& {
-    return prices.values[p.y * prices.places.width + p.x];
-  };
-  for (std::size_t i = 0; i < usable.size(); ++i) {
-    const auto group = static_cast<std::size_t>(groups.group[i]);
-    sums[group] += price(usable[i]);
-    ++numbers[group];
-  }
-  for (std::size_t i = 0; i < usable.size(); ++i) {
-    const auto group = static_cast<std::size_t>(groups.group[i]);
-    price(usable[i]) -= static_cast<float>(sums[group] / numbers[group]);
-  }
-}
-
 }  // namespace
 
 struct PatchFlow::Octave {
@@ -153,21 +89,12 @@ struct PatchFlow::Octave {
   Size size, places;
   PatchAxes axes;
   std::vector<BandStatistics> bands;  // of each region
-  Regions regions;                    // of the picture
   std::vector<float> window;
   std::vector<float> times;  // times[i] before step i
+  std::optional<OctaveGuidance> guidance;
 
-  // With guidance alone:
-  Guidance guidance;
-  std::vector<PatchPlace> usable;
-  GuideGroups like_guides;               // of `usable`
-  std::vector<unsigned char> is_usable;  // of all places
-  std::vector<unsigned char> counts;     // of a fill: of all patches of the picture
-  std::vector<float> confidence;         // of a fill, likewise
-  std::optional<GuidedPatches> guided;
-
-  bool fills() const { return guidance.fills(); }
-  bool guides() const { return guidance.guides(); }
+  bool fills() const { return guidance && guidance->fills(); }
+  bool guides() const { return guidance && guidance->guides(); }
 };
 
 PatchFlow::PatchFlow(const FlowParams& params, const at::Tensor& exemplar, const Target& target,
@@ -202,12 +129,13 @@ PatchFlow::Octave& PatchFlow::octave(int index, bool coarsest) {
   const auto part = static_cast<std::uint64_t>(index);
   const Random of_axes = random_.stream(part).stream(std::uint64_t(Stream::axes));
   if (guidance_) {
-    direct(*o, side);
-    o->axes = patch_axes(o->exemplar, side, axes_kept, of_axes, o->usable);
+    o->guidance.emplace(*guidance_, o->exemplar.size(), o->size, side);
+    o->axes = patch_axes(o->exemplar, side, axes_kept, of_axes, o->guidance->usable());
   } else {
     o->axes = patch_axes(o->exemplar, side, axes_kept, of_axes);
   }
-  o->bands = band_statistics(o->exemplar, Tile::none, o->size, regions_of(*o));
+  o->bands = band_statistics(o->exemplar, Tile::none, o->size,
+                             o->guidance ? o->guidance->exemplar_regions() : Regions());
   o->window = vote_window(side, window_spread);
   const int steps = at_level(params_.flow_steps, index);
   if (coarsest && !o->fills() &&
@@ -223,62 +151,6 @@ PatchFlow::Octave& PatchFlow::octave(int index, bool coarsest) {
   }
   octave_ = std::move(o);
   return *octave_;
-}
-
-Regions PatchFlow::regions_of(Octave& o) const {
-  constexpr std::size_t most_regions = 32;
-  const Guidance& g = o.guidance;
-  Regions own;
-  GuideGroups groups;
-  if (o.guides()) {
-    GuideRows rows{g.guide.channels, usable_pixels(g.exemplar_guide, g.usable).pixels};
-    groups = group_guides(rows, most_regions);
-    own.count = o.regions.count = static_cast<int>(groups.middle.count());
-  }
-  // Where `counts` is not 0, the group whose guide is the nearest, or the one that there is.
-  const auto find = [&](const Image& counts, const Image& guide, Size size) {
-    std::vector<std::int32_t> regions;
-    const auto pixels =
-        static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
-    for (std::size_t i = 0; i < pixels; ++i) {
-      const bool is_counted = counts.empty() || counts.pixels[i] > 0.5f;
-      const float* values =
-          o.guides() ? guide.pixels.data() + i * static_cast<std::size_t>(guide.channels) : nullptr;
-      regions.push_back(!is_counted ? -1 : values ? groups.nearest(values) : 0);
-    }
-    return regions;
-  };
-  if (o.guides() || !g.usable.empty())
-    own.region = find(g.usable, g.exemplar_guide, o.exemplar.size());
-  if (o.guides() || o.fills()) o.regions.region = find(g.made, g.guide, o.size);
-  return own;
-}
-
-void PatchFlow::direct(Octave& o, int side) const {
-  o.guidance = with_shares_as_guide(scaled(*guidance_, o.exemplar.size(), o.size));
-  for (const auto& of_exemplar : usable_places(o.guidance, o.exemplar.size(), side))
-    o.usable.insert(o.usable.end(), of_exemplar.begin(), of_exemplar.end());
-  const auto at = [](PatchPlace p, int width) {
-    return static_cast<std::size_t>(p.y) * static_cast<std::size_t>(width) +
-           static_cast<std::size_t>(p.x);
-  };
-  o.is_usable.resize(static_cast<std::size_t>(o.places.width) *
-                     static_cast<std::size_t>(o.places.height));
-  for (const PatchPlace p : o.usable) o.is_usable[at(p, o.places.width)] = 1;
-  o.guided.emplace(o.guidance, side, 1);
-  if (o.guides()) {
-    const Image means = quarter_means(o.guidance.exemplar_guide, side);
-    GuideRows rows{means.channels, {}};
-    for (const PatchPlace p : o.usable)
-      rows.values.insert(rows.values.end(), means.at(p.x, p.y),
-                         means.at(p.x, p.y) + means.channels);
-    o.like_guides = group_guides(rows, 64);
-  }
-  if (!o.fills()) return;
-  o.confidence = confidences(o.guidance.made, side);
-  o.counts.resize(static_cast<std::size_t>(o.size.width) * static_cast<std::size_t>(o.size.height));
-  for (const PatchPlace p : made_places(o.guidance, o.size, side))
-    o.counts[at(p, o.size.width)] = 1;
 }
 
 void PatchFlow::step(FlowState& state, int index, bool coarsest) {
@@ -301,7 +173,7 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
       state.picture = resample(state.picture, o.size, Tile::both) * (scale_ * t) + noise * (1 - t);
     }
     state.prices = at::zeros({o.places.height, o.places.width}, at::kFloat);
-    if (o.fills()) keep_known(o.guidance, state.picture, scale_ * t);
+    if (o.fills()) keep_known(o.guidance->guidance(), state.picture, scale_ * t);
   }
   const auto at_step = [&](Stream stream) {
     return random.stream(std::uint64_t(stream)).stream(static_cast<std::uint64_t>(state.step));
@@ -316,21 +188,22 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
   const int shift_x = static_cast<int>(shift.below(patch_stride)),
             shift_y = static_cast<int>(shift.below(patch_stride));
   std::vector<PatchPlace> queries, references;
-  for (int y = 0; y < o.size.height; y += patch_stride)
-    for (int x = 0; x < o.size.width; x += patch_stride) {
-      const PatchPlace p{(x + shift_x) % o.size.width, (y + shift_y) % o.size.height};
-      if (!o.fills() || o.counts[static_cast<std::size_t>(p.y * o.size.width + p.x)] != 0)
-        queries.push_back(p);
-    }
-  const std::int64_t patches =
-      guidance_ ? std::ssize(o.usable) : std::int64_t{o.places.width} * o.places.height;
+  if (o.fills())
+    queries = o.guidance->queries(shift_x, shift_y);
+  else
+    for (int y = 0; y < o.size.height; y += patch_stride)
+      for (int x = 0; x < o.size.width; x += patch_stride)
+        queries.push_back({(x + shift_x) % o.size.width, (y + shift_y) % o.size.height});
+  const std::int64_t patches = o.guidance ? std::ssize(o.guidance->usable())
+                                          : std::int64_t{o.places.width} * o.places.height;
   const double pixels = static_cast<double>(o.size.width) * o.size.height;
-  const std::int64_t looked_at = o.fills() ? std::min(patches, most_looked_at_for_a_fill)
-                                           : params_.references(patches, pixels);
+  const std::int64_t looked_at = o.fills()
+                                     ? std::min(patches, looked_at_for_a_fill(std::ssize(queries)))
+                                     : params_.references(patches, pixels);
   for (const std::int64_t i : draw(looked_at, patches, at_step(Stream::references)))
-    references.push_back(guidance_ ? o.usable[static_cast<std::size_t>(i)]
-                                   : PatchPlace{static_cast<int>(i % o.places.width),
-                                                static_cast<int>(i / o.places.width)});
+    references.push_back(o.guidance ? o.guidance->usable()[static_cast<std::size_t>(i)]
+                                    : PatchPlace{static_cast<int>(i % o.places.width),
+                                                 static_cast<int>(i / o.places.width)});
   Vectors of_picture = project(picture, queries, o.axes);
   Vectors of_exemplar = project(o.exemplar, references, o.axes);
   const std::int64_t dimensions = of_exemplar.dimensions;
@@ -341,8 +214,8 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
   }
 
   if (o.guides()) {
-    of_picture = o.guided->queries(std::move(of_picture), queries);
-    of_exemplar = o.guided->references(std::move(of_exemplar), references, t);
+    of_picture = o.guidance->guided().queries(std::move(of_picture), queries);
+    of_exemplar = o.guidance->guided().references(std::move(of_exemplar), references, t);
   }
 
   float* prices = state.prices.data_ptr<float>();
@@ -351,7 +224,7 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
                   {params_.flow_price, price_spread * side, state.step == 0 ? 4 : 2,
                    o.guides() ? dimensions : 0},
                   at_step(Stream::queries));
-    if (o.guides()) level_prices(o.like_guides, o.usable, {o.places, prices});
+    if (o.guides()) o.guidance->level({o.places, prices});
   }
   std::vector<float> offsets = norms;
   for (std::size_t r = 0; r < offsets.size(); ++r)
@@ -363,11 +236,9 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
   if (remembered > 0 && state.sources.defined()) {
     const auto vectors_of = [&](const std::vector<PatchPlace>& places) {
       Vectors vectors = project(o.exemplar, places, o.axes);
-      return o.guides() ? o.guided->references(std::move(vectors), places, t) : vectors;
+      return o.guides() ? o.guidance->guided().references(std::move(vectors), places, t) : vectors;
     };
-    const auto is_usable = [&](PatchPlace p) {
-      return !guidance_ || o.is_usable[static_cast<std::size_t>(p.y * o.places.width + p.x)] != 0;
-    };
+    const auto is_usable = [&](PatchPlace p) { return !o.guidance || o.guidance->is_usable(p); };
     remember({state.sources, o.size, state.step == 0},
              {queries, of_picture, t, {o.places, prices}, dimensions, vectors_of, is_usable},
              remembered, at_step(Stream::memory), references, found);
@@ -377,23 +248,20 @@ void PatchFlow::step(FlowState& state, int index, bool coarsest) {
   of_picture = {};  // large
 
   std::vector<float> weights = likelihoods(found, t);
-  const auto k = static_cast<std::size_t>(found.neighbours);
-  for (std::size_t q = 0; o.fills() && q < queries.size(); ++q)
-    for (std::size_t j = 0; j < k; ++j)
-      weights[q * k + j] *=
-          o.confidence[static_cast<std::size_t>(queries[q].y * o.size.width + queries[q].x)];
+  if (o.fills()) o.guidance->add_confidence(queries, weights);
   Image goal = vote(o.size, queries, o.exemplar, references, found, weights, side, o.window,
-                    agreement_of(o.guidance));
+                    o.guidance ? o.guidance->agreement() : Agreement());
   if (o.fills()) {
     at::Tensor whole = to_planes(goal);
-    keep_known(o.guidance, whole, scale_);
+    keep_known(o.guidance->guidance(), whole, scale_);
     goal = to_image(whole);
   }
-  if (t < bands_until) match_bands(goal, o.bands, o.regions, !o.fills());
+  if (t < bands_until)
+    match_bands(goal, o.bands, o.guidance ? o.guidance->regions() : Regions(), !o.fills());
   state.goal = to_planes(goal);
-  if (o.fills()) keep_known(o.guidance, state.goal, scale_);
+  if (o.fills()) keep_known(o.guidance->guidance(), state.goal, scale_);
   state.picture += (state.goal - state.picture) * ((next - t) / (1 - t));
-  if (o.fills()) keep_known(o.guidance, state.picture, scale_ * next);
+  if (o.fills()) keep_known(o.guidance->guidance(), state.picture, scale_ * next);
   state.goal /= scale_;
   if (++state.step == at_level(params_.flow_steps, index)) state.picture /= scale_;
 }

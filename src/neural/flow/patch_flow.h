@@ -6,7 +6,6 @@
 
 #include "core/random.h"
 #include "core/request.h"
-#include "neural/flow/band_match.h"
 #include "neural/flow/params.h"
 #include "neural/flow/periodic_part.h"
 #include "neural/guidance.h"
@@ -40,9 +39,9 @@ struct FlowState {
 /// several exemplars or with what directs the result. A guide's values are further coordinates of
 /// the search (guided_patches.h), a pixel votes the less the less its guide is like that of its
 /// place, prices balance the use of patches of like guides, and bands are matched where guides are
-/// alike. Of a fill only patches with a pixel that is made are looked for, among all of the
-/// exemplar's (up to 16384), for no price; after each step the known pixels are, without noise,
-/// what they are at that time of the flow.
+/// alike. Of a fill only patches with a pixel that is made are looked for, among thousands of the
+/// exemplar's; those near known pixels count more in a vote; after each step the known pixels are,
+/// without noise, what they are at that time of the flow (octave_guidance.h).
 class PatchFlow {
  public:
   /// exemplar: (channels, height, width). Throws Error when it is too small.
@@ -61,11 +60,6 @@ class PatchFlow {
  private:
   struct Octave;
   Octave& octave(int index, bool coarsest);
-  // What the guidance says on this octave, for patches of that side.
-  void direct(Octave& octave, int side) const;
-  // The regions of its exemplar whose bands are matched in those of its picture: of like guides,
-  // usable, made.
-  Regions regions_of(Octave& octave) const;
 
   FlowParams params_;
   at::Tensor exemplar_;  // of mean square 1

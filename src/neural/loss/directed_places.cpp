@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "neural/directed_settings.h"
 #include "neural/flow/guided_patches.h"
 #include "neural/flow/nearest.h"
 #include "neural/picture.h"
@@ -130,10 +131,11 @@ DirectedPlaces directed_places(const Guidance& guidance, Size exemplar, Size res
 at::Tensor nearest_places(const Guidance& guidance, const at::Tensor& exemplar,
                           const at::Tensor& picture, int side, Random random) {
   constexpr int axes_kept = 4;  // detail has no say: it is lost in a mean of patches
-  constexpr std::size_t most_looked_at = 16384;
   const Image own = to_image(exemplar), result = to_image(picture);
   const auto usable = usable_places(guidance, own.size(), side);
   const auto counted = made_places(guidance, result.size(), side);
+  const auto most_looked_at =
+      static_cast<std::size_t>(looked_at_for_a_fill(std::ssize(counted) / 4));
   std::vector<PatchPlace> all;
   for (const auto& of_exemplar : usable)
     all.insert(all.end(), of_exemplar.begin(), of_exemplar.end());

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 #include "core/threads.h"
 #include "neural/flow/guided_patches.h"
 #include "neural/loss/barycentre.h"
 #include "neural/loss/directed_places.h"
+#include "neural/loss/mix_bins.h"
 #include "neural/loss/patches.h"
 #include "neural/loss/wasserstein.h"
 #include "neural/normal_numbers.h"
@@ -17,8 +17,6 @@
 namespace gramloom::neural {
 
 namespace {
-
-using Indices = std::vector<std::int64_t>;
 
 enum class Stream : std::uint64_t { flat = 1, sample, exemplar, draws, tags, bins };
 
@@ -44,12 +42,6 @@ void put_columns(const at::Tensor& some, const Indices& places, at::Tensor& rows
     for (std::int64_t i = 0; i < count; ++i)
       to[r * length + places[static_cast<std::size_t>(i)]] = from[r * count + i];
 }
-
-// Patches of the result that are compared with a goal of their own: those of about one mix.
-struct Bin {
-  std::vector<float> shares;  // of the exemplars, their sum is 1
-  Indices members;            // among the patches of the step
-};
 
 class DirectedSliced : public PictureTerm {
  public:
@@ -90,7 +82,8 @@ class DirectedSliced : public PictureTerm {
     std::vector<PatchPlace> places;
     for (const std::int64_t i : sample) places.push_back(all.counted[static_cast<std::size_t>(i)]);
     const auto goals = goal_places(all, sample, random);
-    const std::vector<Bin> bins = bins_of(all, sample, random.stream(part(Stream::bins)));
+    const std::vector<MixBin> bins =
+        mix_bins(all.shares, sample, random.stream(part(Stream::bins)));
     const at::Tensor filters = filters_of(all.side, step);
     const at::Tensor tag_filters =
         normal_numbers(random.stream(part(Stream::tags)), {directions_, all.tags.length});
@@ -134,14 +127,12 @@ class DirectedSliced : public PictureTerm {
     const at::Tensor filters = filters_of(places.side, 0);
     const std::int64_t at_once =
         std::max(least_directions_at_once, sliced_values_at_once / std::ssize(all));
-    double square = 0;
     for (std::int64_t first = 0; first < directions_; first += at_once)
       flat_ += distance_from_mean(
           project_exemplar(filters.narrow(0, first, std::min(at_once, directions_ - first)), all));
     flat_ /= directions_;
-    square = double{root_mean_square_} * root_mean_square_;
     // The mean of equal values is rounded.
-    if (flat_ < 1e-6 * std::sqrt(square)) flat_ = 0;
+    if (flat_ < 1e-6 * double{root_mean_square_}) flat_ = 0;
   }
 
   // Of a flat exemplar the colour is all there is to match.
@@ -182,49 +173,6 @@ class DirectedSliced : public PictureTerm {
       }
     }
     return goals;
-  }
-
-  // Patches of about one mix together; each is put to one of the two or more nearest at random.
-  std::vector<Bin> bins_of(const DirectedPlaces& all, const Indices& sample, Random random) const {
-    constexpr float steps = 8;
-    const std::int64_t count = std::max<std::int64_t>(1, all.shares.length);
-    const auto normalised = [](std::vector<float> shares) {
-      const float sum = std::accumulate(shares.begin(), shares.end(), 0.0f);
-      for (float& share : shares) share /= sum;
-      return shares;
-    };
-    if (all.shares.length == 0 || is_one_row(all.shares)) {
-      Indices everything(sample.size());
-      std::iota(everything.begin(), everything.end(), 0);
-      std::vector<float> shares(static_cast<std::size_t>(count), 1);
-      if (all.shares.length > 0) shares.assign(all.shares.at(0), all.shares.at(0) + count);
-      return {{normalised(shares), everything}};
-    }
-    std::map<std::vector<int>, Indices> bins;
-    std::vector<int> key(static_cast<std::size_t>(count));
-    for (std::size_t i = 0; i < sample.size(); ++i) {
-      const float* shares = all.shares.at(sample[i]);
-      const float strewn = random.uniform() - 0.5f;  // one number: 0 and 1 stay what they are
-      for (std::size_t e = 0; e < key.size(); ++e) {
-        const bool pure = shares[e] < 1e-3f || shares[e] > 0.999f;
-        key[e] = static_cast<int>(
-            std::lround(shares[e] * steps + (pure ? 0.0f : (e % 2 == 0 ? strewn : -strewn))));
-        key[e] = std::clamp(key[e], 0, static_cast<int>(steps));
-      }
-      if (std::ranges::max(key) == 0)
-        key[static_cast<std::size_t>(std::max_element(shares, shares + count) - shares)] = 1;
-      bins[key].push_back(static_cast<std::int64_t>(i));
-    }
-    std::vector<Bin> result;
-    for (auto& [shares, members] : bins)
-      result.push_back({normalised({shares.begin(), shares.end()}), std::move(members)});
-    return result;
-  }
-
-  static bool is_one_row(const GuideRows& rows) {
-    for (std::int64_t i = 1; i < rows.count(); ++i)
-      if (!std::equal(rows.at(0), rows.at(0) + rows.length, rows.at(i))) return false;
-    return true;
   }
 
   at::Tensor filters_of(int side, std::uint64_t step) const {
@@ -268,12 +216,12 @@ class DirectedSliced : public PictureTerm {
 
   // The mean distance of `values` from their goals; they become `weight` times its gradient.
   static double compare(at::Tensor& values, std::vector<at::Tensor>& wanted, bool paired,
-                        const std::vector<Bin>& bins, double weight) {
+                        const std::vector<MixBin>& bins, double weight) {
     if (!paired)
       for (at::Tensor& of_exemplar : wanted) sort_rows(of_exemplar);
     const auto total = static_cast<double>(values.size(1));
     double sum = 0;
-    for (const Bin& bin : bins) {
+    for (const MixBin& bin : bins) {
       const bool whole = bins.size() == 1;
       const std::int64_t count = std::ssize(bin.members);
       std::vector<at::Tensor> goals;
