@@ -192,8 +192,7 @@ class Filling {
       *open_.at(part.x, part.y) = 0;
       *confidence_.at(part.x, part.y) = confidence;
     }
-    look_around(at.x - side_, at.y - side_, std::min(2 * side_ + 1, picture_.width),
-                std::min(2 * side_ + 1, picture_.height));
+    look_around(at.x - side_, at.y - side_, 2 * side_ + 1, 2 * side_ + 1);
   }
 
   const Guidance& guidance_;
