@@ -59,6 +59,13 @@ class Directed : public OfMethod<Params> {
  protected:
   static constexpr bool can(Ability ability) { return Params::abilities.has(ability); }
 
+  /// With steps enough to bring a colour from noise.
+  static Params enough() {
+    Params params = OfMethod<Params>::quick();
+    if constexpr (OfMethod<Params>::is_neural) params.iterations = {60, 60};
+    return params;
+  }
+
   /// The picture itself with its holes masked, to be filled.
   static Request filling(const Image& picture, const Image& mask, Tile tile = Tile::none) {
     Request request{{{picture}}, {picture.size(), tile}, Random(1)};
@@ -114,7 +121,7 @@ TYPED_TEST(Directed, LabelsAreHonoured) {
   request.exemplars[0].guide = labels({64, 48}, false);
   request.target.guide = labels({72, 60}, true);
   request.target.guide_weight = Image(1, 1, 1, 10.0f);
-  const Image image = synthesise(this->quick(), request, {}).image;
+  const Image image = synthesise(this->enough(), request, {}).image;
   int right = 0;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
@@ -150,7 +157,7 @@ TYPED_TEST(Directed, AWeightPictureSaysWhichOfTwoExemplarsGoesWhere) {
   Request request = this->request(grain({48, 40}, 3), {{96, 60}});
   request.exemplars.push_back({brighter});
   request.target.weights = labels({96, 60}, false);
-  const Image image = synthesise(this->quick(), request, {}).image;
+  const Image image = synthesise(this->enough(), request, {}).image;
   double left = 0, right = 0;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
