@@ -108,7 +108,7 @@ void score_texture(Run& run, const PlannedJob& planned, const JobFiles& files, J
   // The texture as others see it: with its file's rounding.
   const Image texture = read_image(files.folder / record.files.front()).image;
   request_of(run, planned.job);  // reads the exemplar again where its files have changed
-  if (record.settings.value("/exemplar/hash"_json_pointer, "") != run.loaded_hashes.at(0))
+  if (record.settings.value("/exemplar/hash"_json_pointer, "") != run.loaded->hashes.at(0))
     throw Error("the exemplar has changed since the texture was made");
   if (!run.request.target.mask.empty()) {
     record.metrics["join"] = join_visibility(texture, run.request.target.mask);

@@ -134,7 +134,7 @@ Work begin_work(Run& run, const PlannedJob& planned, const JobFiles& files, JobR
   const Job& job = planned.job;
   const Method& method = run.config.methods[job.method].method;
   const Request& request = request_of(run, job);
-  InputHashes inputs{run.loaded_hashes, run.direction_hashes, method_hashes(method, run.hashes),
+  InputHashes inputs{run.loaded->hashes, run.loaded->direction, method_hashes(method, run.hashes),
                      preview_hashes(run.config, run.hashes)};
   record.settings = job_settings(run.config, job, inputs);
   record.network = network_of(method);
@@ -172,29 +172,29 @@ void do_job(Run& run, const PlannedJob& planned, const JobFiles& files, bool kee
 const Request& request_of(Run& run, const Job& job) {
   // The seed alone: a texture does not change when its exemplar or method is given another name.
   run.request.random = Random(static_cast<std::uint64_t>(job.seed));
-  std::vector<std::string> hashes;
-  if (job.exemplar) hashes = exemplar_hashes(run.config.exemplars[*job.exemplar], run.hashes);
-  auto direction = direction_hashes(run.config.direction, run.hashes);
-  if (run.loaded == job.exemplar && run.loaded_hashes == hashes &&
-      run.direction_hashes == direction && run.request.target.size == run.config.size)
-    return run.request;
+  const auto files_now = [&] {
+    LoadedFiles files{job.exemplar, {}, direction_hashes(run.config.direction, run.hashes)};
+    if (job.exemplar)
+      files.hashes = exemplar_hashes(run.config.exemplars[*job.exemplar], run.hashes);
+    return files;
+  };
+  LoadedFiles files = files_now();
+  if (run.loaded == files) return run.request;
   const NothingToKeep scope;
   run.loaded.reset();
   run.request.exemplars.clear();
   run.statistics.clear();
   LoadedRequest loaded = load_request(run.config, job.exemplar);
-  if (job.exemplar && (exemplar_hashes(run.config.exemplars[*job.exemplar], run.hashes) != hashes ||
-                       direction_hashes(run.config.direction, run.hashes) != direction))
+  if (files_now() != files)
     throw Error("{}: the exemplar or one of its maps changed while it was read",
-                run.config.exemplars[*job.exemplar].image.string());
+                job.exemplar ? run.config.exemplars[*job.exemplar].image.string()
+                             : run.config.file.string());
   run.request.exemplars = std::move(loaded.exemplars);
   run.request.target = std::move(loaded.target);
   run.files = std::move(loaded.files);
   run.notes = std::move(loaded.notes);
   run.metadata = std::move(loaded.metadata);
-  run.loaded = job.exemplar;
-  run.loaded_hashes = std::move(hashes);
-  run.direction_hashes = std::move(direction);
+  run.loaded = std::move(files);
   return run.request;
 }
 

@@ -15,6 +15,16 @@
 
 namespace gramloom {
 
+/// What a request was read from: which exemplar of the config, if any, and the hashes of its files
+/// and of those of [fill] and its like.
+struct LoadedFiles {
+  std::optional<std::size_t> exemplar;
+  std::vector<std::string> hashes;
+  Named<std::string> direction;
+
+  friend bool operator==(const LoadedFiles&, const LoadedFiles&) = default;
+};
+
 /// What all jobs of a run share. The exemplar of the last job is kept for the next one, in its
 /// request.
 struct Run {
@@ -24,9 +34,7 @@ struct Run {
   ProgressBar& bar;
   std::function<void()> keep_up = {};      // to be called now and then while a job is under way
   FileHashes hashes = {};                  // of the files that the jobs read
-  std::optional<std::size_t> loaded = {};  // which exemplar
-  std::vector<std::string> loaded_hashes = {};  // of its files when they were read
-  Named<std::string> direction_hashes = {};     // of those of [fill] and its like
+  std::optional<LoadedFiles> loaded = {};  // what `request` was read from; none: not yet
   Request request = {};
   std::vector<ExemplarFile> files = {};  // of that exemplar
   std::vector<std::string> notes = {};   // likewise: where its values are not those of the files

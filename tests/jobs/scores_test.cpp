@@ -106,7 +106,7 @@ TEST_F(RunScores, SheetHasALineForEachJob) {
   ASSERT_EQ(lines.size(), 5u);
   EXPECT_TRUE(lines[0].starts_with(
       "exemplar,method,kind,seed,status,seconds,peak_memory_mb,stsim2,portilla_simoncelli,"));
-  EXPECT_TRUE(lines[0].ends_with(",seam_x,seam_y,diversity"));
+  EXPECT_TRUE(lines[0].ends_with(",seam_x,seam_y,join,diversity"));
   EXPECT_TRUE(lines[1].starts_with("procedural,a,procedural,1,done,")) << lines[1];
   EXPECT_TRUE(lines[4].starts_with("e,b,quilting,2,done,")) << lines[4];
   const auto commas = std::count(lines[0].begin(), lines[0].end(), ',');
