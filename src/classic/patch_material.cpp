@@ -18,10 +18,11 @@ constexpr int fewest_origins = 64;
 
 double area(Size size) { return static_cast<double>(size.width) * size.height; }
 
-/// Where each exemplar begins on a level; nothing for a single one.
-std::vector<int> parts_of(const United& united, int exemplars, int level) {
+/// Where each exemplar begins on a level of this width; nothing for a single one. Those that are
+/// too narrow for the level have no part of it.
+std::vector<int> parts_of(const United& united, int exemplars, int level, int width) {
   std::vector<int> parts;
-  for (int x = 0; exemplars > 1 && std::ssize(parts) < exemplars; ++x)
+  for (int x = 0; exemplars > 1 && x < width && std::ssize(parts) < exemplars; ++x)
     if (united.source(x << level, 0).exemplar >= parts.size()) parts.push_back(x);
   return parts;
 }
@@ -66,7 +67,7 @@ Material make_material(const PatchmatchParams& params, double structure, const U
   Image mask = exemplar.mask;
   const Size patch{field_patch, field_patch};
   if (!mask.empty()) source.usable = usable_origins(mask, source.features.size(), patch);
-  source.parts = parts_of(united, exemplars, 0);
+  source.parts = parts_of(united, exemplars, 0, source.features.width);
   const std::vector<int> finest = count_usable(source, united, exemplars, 0);
   if (std::ranges::all_of(finest, [](int n) { return n == 0; }))
     throw Error("patchmatch copies patches of {}×{} pixels: the exemplars' masks leave none whole",
@@ -77,7 +78,7 @@ Material make_material(const PatchmatchParams& params, double structure, const U
     const PatchSource& finer = material.levels.back();
     PatchSource next{.features = halved(finer.features)};
     const int level = static_cast<int>(material.levels.size());
-    next.parts = parts_of(united, exemplars, level);
+    next.parts = parts_of(united, exemplars, level, next.features.width);
     for (const Image& plane : finer.guide) next.guide.push_back(halved(plane));
     if (!mask.empty()) {
       mask = halved_mask(mask);

@@ -79,6 +79,7 @@ Pieces pieces_of(const PatchSource& source) {
   }
   Pieces pieces;
   for (std::size_t i = 0; i < firsts.size(); ++i) {
+    if (ends[i] <= firsts[i]) continue;
     Exemplar piece{.image = columns(whole.image, firsts[i], ends[i]),
                    .mask = columns(whole.mask, firsts[i], ends[i]),
                    .guide = columns(whole.guide, firsts[i], ends[i])};

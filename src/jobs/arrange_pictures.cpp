@@ -5,6 +5,7 @@
 #include "io/image_file.h"
 #include "jobs/arrangement.h"
 #include "jobs/protected_files.h"
+#include "jobs/results.h"
 
 namespace gramloom {
 
@@ -23,6 +24,17 @@ void check_output_file(const ArrangeWork& work) {
   } catch (const Error& error) {
     throw ConfigError("arrange: {}", error.what());
   }
+}
+
+// No value is changed: the file must hold them all.
+void check_exact(const ArrangeWork& work, PixelType type) {
+  const std::string extension = work.output.extension().string();
+  const bool lossy = is_lossy(extension);
+  if (lossy || stored_type(extension, type) != type)
+    throw ConfigError("arrange: {} {} and would change values: choose another format",
+                      work.output.string(),
+                      lossy ? "loses some on the way"
+                            : fmt::format("cannot hold the pixel type {}", to_word(type)));
 }
 
 void check_pictures(const ArrangeWork& work, const Arrangement& arrangement,
@@ -54,14 +66,25 @@ void check_pictures(const ArrangeWork& work, const Arrangement& arrangement,
 
 std::vector<std::string> arrange_pictures(const ArrangeWork& work) {
   check_output_file(work);
-  const Arrangement arrangement = read_arrangement(work.coordinates);
+  Arrangement arrangement;
+  try {
+    arrangement = read_arrangement(work.coordinates);
+  } catch (const Error& error) {
+    throw ConfigError("arrange: {}", error.what());
+  }
   std::vector<Exemplar> pictures;
   Encoding encoding;
   for (const fs::path& file : work.pictures) {
     ImageFile picture = read_image(file);
-    if (pictures.empty()) encoding = std::move(picture.encoding);
+    if (pictures.empty()) encoding = picture.encoding;
+    const PixelType type = picture.encoding.pixel_type;
+    if (type != encoding.pixel_type)
+      throw ConfigError("arrange: {} has the pixel type {} and {} {}: they must be equal",
+                        work.pictures.front().string(), to_word(encoding.pixel_type), file.string(),
+                        to_word(type));
     pictures.push_back({std::move(picture.image)});
   }
+  check_exact(work, encoding.pixel_type);
   check_pictures(work, arrangement, pictures);
   return write_image(work.output, arranged(arrangement.source, pictures), encoding,
                      {{mark, work.coordinates.filename().string()}});

@@ -45,17 +45,20 @@ std::vector<Size> from_text(const std::string& text) {
 
 }  // namespace
 
-Arrangement arrangement_of(const SourceMap& source, const Request& request) {
+Arrangement arrangement_of(const SourceMap& source, const Request& request,
+                           const std::optional<Corner>& filled_at) {
   Arrangement arrangement{source, {}};
   for (const Exemplar& exemplar : request.exemplars)
     arrangement.pictures.push_back(exemplar.image.size());
   const Image& mask = request.target.mask;
   if (mask.empty()) return arrangement;
-  const int known = static_cast<int>(arrangement.pictures.size());
-  arrangement.pictures.push_back(request.target.size);
+  const Corner corner = filled_at.value_or(Corner{});
+  const int known = filled_at ? 0 : static_cast<int>(arrangement.pictures.size());
+  if (!filled_at) arrangement.pictures.push_back(request.target.size);
   for (int y = 0; y < mask.height; ++y)
     for (int x = 0; x < mask.width; ++x)
-      if (*mask.at(x, y) <= 0.5f) *arrangement.source.at(x, y) = {x, y, known};
+      if (*mask.at(x, y) <= 0.5f)
+        *arrangement.source.at(x, y) = {x - corner.left, y - corner.top, known};
   return arrangement;
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/request.h"
+#include "jobs/filling.h"
 
 namespace gramloom {
 
@@ -15,9 +17,11 @@ struct Arrangement {
   std::vector<Size> pictures;
 };
 
-/// A texture's coordinates. Pixels that were known are those of one more picture, behind the
-/// exemplars: the one that was filled, of the texture's size.
-Arrangement arrangement_of(const SourceMap& source, const Request& request);
+/// A texture's coordinates. Pixels that were known are those of the exemplar where that is the
+/// picture that was filled, which begins `filled_at` in the texture; else of one more picture
+/// behind the exemplars, of the texture's size.
+Arrangement arrangement_of(const SourceMap& source, const Request& request,
+                           const std::optional<Corner>& filled_at);
 
 /// Writes "NAME_coordinates.tif": x, y and the number of the picture, as 16-bit integers, or as
 /// floats where a side is longer; the sizes are in its metadata. Returns the file's name.

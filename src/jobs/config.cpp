@@ -20,8 +20,9 @@ namespace fs = std::filesystem;
 
 // A method's name is a folder beside the files of its exemplar.
 bool is_file_of_exemplar(const std::string& name) {
-  return is_own_file(name, "exemplar") ||
-         (in_small_letters(name).starts_with("exemplar_") && fs::path(name).has_extension());
+  return is_own_file(name, "exemplar") || ((in_small_letters(name).starts_with("exemplar_") ||
+                                            in_small_letters(name).starts_with("target_")) &&
+                                           fs::path(name).has_extension());
 }
 
 std::vector<MethodEntry> read_methods(toml::table& config) {

@@ -114,10 +114,11 @@ struct Config {
 /// in a config with such a method.
 inline constexpr std::string_view procedural_folder = "procedural";
 
-/// Reads a config file and checks all that can be known without reading a picture; `overrides` are
+/// Reads a config file and checks all that can be known without reading a picture (but for the size
+/// of one that the texture's follows from); `overrides` are
 /// "key=value" (a top-level key, or a parameter of every method that has it),
-/// "method.NAME.key=value", "exemplar.NAME.key=value" or "baseline.key=value". Throws ConfigError,
-/// which says where the mistake is.
+/// "method.NAME.key=value", "exemplar.NAME.key=value" or "SECTION.key=value", such as
+/// "fill.mask=hole.png". Throws ConfigError, which says where the mistake is.
 Config read_config(const std::filesystem::path& file,
                    const std::vector<std::string>& overrides = {});
 

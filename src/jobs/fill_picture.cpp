@@ -7,7 +7,7 @@
 #include "jobs/memory.h"
 #include "jobs/plan.h"
 #include "jobs/protected_files.h"
-#include "jobs/settings.h"
+#include "jobs/results.h"
 
 namespace gramloom {
 
@@ -18,7 +18,12 @@ namespace fs = std::filesystem;
 constexpr const char* mark = "gramloom:filled";
 
 // A text as TOML writes it; its basic strings are JSON's.
-std::string quoted(const std::string& text) { return Json(text).dump(); }
+std::string quoted(const std::string& text) {
+  if (valid_utf8(text) != text)
+    throw ConfigError("fill: the name {} is not UTF-8, as a config must be: rename the file",
+                      valid_utf8(text));
+  return Json(text).dump();
+}
 
 std::string quoted_path(const fs::path& file) {
   return quoted(fs::absolute(file).lexically_normal().string());
@@ -27,6 +32,11 @@ std::string quoted_path(const fs::path& file) {
 void check_output_file(const FillWork& work, const Config& config) {
   try {
     stored_type(work.output.extension().string(), PixelType::uint8);
+    if (is_lossy(work.output.extension().string()))
+      throw Error("{} would not keep what is left as it is: choose another format",
+                  work.output.string());
+    const fs::path folder = fs::absolute(work.output).parent_path();
+    if (!fs::is_directory(folder)) throw Error("there is no folder {}", folder.string());
     check_replaced(work.output, ProtectedFiles(input_files(config)), mark);
   } catch (const Error& error) {
     throw ConfigError("fill: {}", error.what());

@@ -57,18 +57,21 @@ void check_hole(const FillEntry& fill, const Image& mask, bool from_itself,
   if (from_itself && made == static_cast<std::ptrdiff_t>(mask.pixels.size()))
     throw ConfigError(
         "{}: all of {} is to be made anew, and nothing is left to make it of: the mask is white "
-        "everywhere, and there is no [[exemplar]]",
-        place, described(fill));
+        "everywhere, or the band as wide as the picture ({}×{}), and there is no [[exemplar]]",
+        place, described(fill), mask.width, mask.height);
 }
 
 }  // namespace
+
+Corner corner_of(const FillEntry& fill) {
+  return fill.extend.empty() ? Corner{} : Corner{fill.extend[0], fill.extend[1]};
+}
 
 Filling filling_of(const FillEntry& fill, PictureFiles picture, Size size, bool from_itself,
                    const std::string& place) {
   Filling filling;
   Image hole = hole_of(fill, picture, place);
-  const int left = fill.extend.empty() ? 0 : fill.extend[0];
-  const int top = fill.extend.empty() ? 0 : fill.extend[1];
+  const auto [left, top] = corner_of(fill);
   filling.mask = placed(hole, left, top, size, 1);
   mark_bands(fill, filling.mask);
   check_hole(fill, filling.mask, from_itself, place);

@@ -31,22 +31,19 @@ std::string described(const Colour& colour) {
   return text;
 }
 
-Image without_alpha(Image guide) {
-  const bool alpha = guide.channels == 2 || guide.channels == 4;
-  return alpha ? extract_channels(guide, 0, guide.channels - 1) : guide;
-}
-
-// Numbers the guide's colours; false when there are too many.
-bool add_labels(const Image& guide, Labels& labels) {
+// Numbers the guide's colours, where the mask lets be used what they are of; false when there are
+// too many.
+bool add_labels(const Image& guide, const Image& mask, Labels& labels) {
   for (int y = 0; y < guide.height; ++y)
     for (int x = 0; x < guide.width; ++x) {
+      if (!mask.empty() && *mask.at(x, y) <= 0.5f) continue;
       labels.emplace(colour_at(guide, x, y), static_cast<int>(labels.size()));
       if (labels.size() > most_labels) return false;
     }
   return true;
 }
 
-// A channel for each label: 1 where the guide has it.
+// A channel for each label: 1 where the guide has it. What may not be used can have others.
 Image one_hot(const Image& guide, const Labels& labels) {
   Image result(guide.size(), static_cast<int>(labels.size()));
   for (int y = 0; y < guide.height; ++y)
@@ -57,6 +54,7 @@ Image one_hot(const Image& guide, const Labels& labels) {
 struct NamedGuide {
   std::string file;
   Image* guide;
+  const Image* mask;  // where there is one
 };
 
 void check_channels(const std::vector<NamedGuide>& exemplars, const NamedGuide& target,
@@ -71,16 +69,18 @@ void check_channels(const std::vector<NamedGuide>& exemplars, const NamedGuide& 
           exemplar.guide->channels);
 }
 
-void check_known(const Labels& labels, const std::vector<NamedGuide>& exemplars, const NamedGuide& target,
-                 const std::string& place) {
+void check_known(const Labels& labels, const std::vector<NamedGuide>& exemplars,
+                 const NamedGuide& target, const std::string& place) {
   const Image& guide = *target.guide;
   for (int y = 0; y < guide.height; ++y)
     for (int x = 0; x < guide.width; ++x) {
       const Colour colour = colour_at(guide, x, y);
       if (labels.contains(colour)) continue;
-      throw ConfigError("{}: the guide {} has the label ({}) at ({}, {}), which {} has not{}",
-                        place, target.file, described(colour), x, y, exemplars.front().file,
-                        exemplars.size() > 1 ? ", nor the other exemplars' guides" : "");
+      throw ConfigError(
+          "{}: the guide {} has the label ({}) at ({}, {}), which {} has not where it may be "
+          "used{}",
+          place, target.file, described(colour), x, y, exemplars.front().file,
+          exemplars.size() > 1 ? ", nor the other exemplars' guides" : "");
     }
 }
 
@@ -89,9 +89,10 @@ bool are_labels(GuideKind kind, const std::vector<NamedGuide>& exemplars, const 
                 const std::string& place, Labels& labels) {
   if (kind == GuideKind::values) return false;
   bool few = true;
-  for (const NamedGuide& exemplar : exemplars) few = few && add_labels(*exemplar.guide, labels);
+  for (const NamedGuide& exemplar : exemplars)
+    few = few && add_labels(*exemplar.guide, *exemplar.mask, labels);
   Labels all = labels;
-  few = few && add_labels(*target.guide, all);
+  few = few && add_labels(*target.guide, *target.mask, all);
   if (!few && kind == GuideKind::labels)
     throw ConfigError(
         "{}: the guides have more than {} colours: labels must be painted without smooth edges and "
@@ -135,19 +136,17 @@ Image weight_of(const GuideEntry& guide, Size size, float most, const std::strin
 
 }  // namespace
 
-void add_guides(const Config& config, const ExemplarEntry& entry, std::vector<Exemplar>& exemplars,
-                Target& target) {
+void add_guides(const Config& config, const std::vector<fs::path>& files,
+                std::vector<Exemplar>& exemplars, Target& target) {
   const GuideEntry& guide = *config.direction.guide;
   const std::string place = place_of(config, "guide");
   target.guide =
       without_alpha(read_sized(guide.image, target.size, "the guide", "the texture", place));
   std::vector<NamedGuide> guides;
-  const std::vector<ExemplarPicture> pictures = pictures_of(entry);
-  for (std::size_t i = 0; i < exemplars.size(); ++i) {
-    exemplars[i].guide = without_alpha(std::move(exemplars[i].guide));
-    guides.push_back({pictures.at(i).guide.string(), &exemplars[i].guide});
-  }
-  const NamedGuide asked{guide.image.string(), &target.guide};
+  for (std::size_t i = 0; i < exemplars.size(); ++i)
+    guides.push_back({files[i].string(), &exemplars[i].guide, &exemplars[i].mask});
+  const Image everywhere;
+  const NamedGuide asked{guide.image.string(), &target.guide, &everywhere};
   check_channels(guides, asked, place);
   Labels labels;
   float weight = static_cast<float>(guide.weight);

@@ -61,8 +61,12 @@ std::vector<double> shares_of(const Request& request) {
   const std::size_t count = request.exemplars.size();
   std::vector<double> shares(count);
   const std::vector<float>& weights = request.target.weights.pixels;
-  for (std::size_t p = 0; p < weights.size(); ++p)
-    shares[p % count] += static_cast<double>(weights[p]);
+  for (std::size_t p = 0; p < weights.size(); p += count) {
+    const double sum =
+        std::accumulate(weights.begin() + static_cast<std::ptrdiff_t>(p),
+                        weights.begin() + static_cast<std::ptrdiff_t>(p + count), 0.0);
+    for (std::size_t i = 0; i < count; ++i) shares[i] += static_cast<double>(weights[p + i]) / sum;
+  }
   if (weights.empty())
     for (std::size_t i = 0; i < count; ++i) {
       const Rectangle part = usable_part(request.exemplars[i]);
@@ -112,6 +116,8 @@ void score_texture(Run& run, const PlannedJob& planned, const JobFiles& files, J
     throw Error("the exemplar has changed since the texture was made");
   if (!run.request.target.mask.empty()) {
     record.metrics["join"] = join_visibility(texture, run.request.target.mask);
+    if (tiles_x(run.config.tile)) record.metrics["seam_x"] = seam_visibility(texture, true);
+    if (tiles_y(run.config.tile)) record.metrics["seam_y"] = seam_visibility(texture, false);
     return;
   }
   const Scores scores = scores_of(run, planned, texture);

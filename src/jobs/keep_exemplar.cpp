@@ -13,6 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* mark = "gramloom:kept";
+
 // "exemplar", "exemplar_picture2", …
 std::string stem_of(std::size_t picture) {
   return picture == 0 ? "exemplar" : fmt::format("exemplar_picture{}", picture + 1);
@@ -63,7 +65,10 @@ Image shown(const Image& guide) {
 
 // What is not there any more is removed: of a config that had it before.
 void write_or_remove(const fs::path& file, const Image& image) {
-  image.empty() ? remove_file(file) : static_cast<void>(write_image(file, image, {}));
+  if (!image.empty())
+    write_image(file, image, {}, {{mark, "yes"}});
+  else if (is_kept(file))
+    remove_file(file);
 }
 
 Image shown_or_none(const Image& guide, Size least) {
@@ -71,6 +76,15 @@ Image shown_or_none(const Image& guide, Size least) {
 }
 
 }  // namespace
+
+bool is_kept(const fs::path& file) {
+  try {
+    std::error_code ignored;
+    return fs::is_regular_file(file, ignored) && read_image(file).metadata.contains(mark);
+  } catch (const Error&) {
+    return false;
+  }
+}
 
 void write_exemplar(const fs::path& folder, const Request& request,
                     const std::vector<ExemplarFile>& files) {
@@ -92,15 +106,21 @@ void write_exemplar(const fs::path& folder, const Request& request,
 }
 
 std::vector<std::string> kept_files(const ExemplarEntry& exemplar) {
-  std::vector<std::string> names{"target_guide", "target_weights", "target_mask"};
+  std::vector<std::string> names;
   const std::size_t pictures = 1 + exemplar.more.size();
   for (std::size_t i = 0; i < pictures; ++i) {
     const std::string stem = stem_of(i);
     names.push_back(stem);
-    names.push_back(stem + "_usable");
-    names.push_back(stem + "_guide");
     for (const auto& [map, file] : exemplar.maps) names.push_back(stem + "_" + map);
   }
+  return names;
+}
+
+std::vector<std::string> kept_directions(const ExemplarEntry& exemplar) {
+  std::vector<std::string> names{"target_guide", "target_weights", "target_mask"};
+  const std::size_t pictures = 1 + exemplar.more.size();
+  for (std::size_t i = 0; i < pictures; ++i)
+    for (const char* what : {"_usable", "_guide"}) names.push_back(stem_of(i) + what);
   return names;
 }
 

@@ -20,7 +20,10 @@ namespace gramloom {
 void write_exemplar(const std::filesystem::path& folder, const Request& request,
                     const std::vector<ExemplarFile>& files);
 
-/// The names, without extension, of all those files of this exemplar.
+/// The names, without extension, of those files of this exemplar: of pictures and maps; and of
+/// masks, guides and weights, which carry a mark that they are ours.
 std::vector<std::string> kept_files(const ExemplarEntry& exemplar);
+std::vector<std::string> kept_directions(const ExemplarEntry& exemplar);
+bool is_kept(const std::filesystem::path& file);
 
 }  // namespace gramloom

@@ -23,10 +23,19 @@ Exemplar exemplar_of(const ExemplarPicture& entry, PictureFiles picture, const s
                         entry.mask.string(), picture.file.string());
   }
   if (!entry.guide.empty())
-    exemplar.guide = read_sized(entry.guide, picture.images.front().size(), "the guide",
-                                picture.file.string(), place);
+    exemplar.guide = without_alpha(read_sized(entry.guide, picture.images.front().size(),
+                                              "the guide", picture.file.string(), place));
   exemplar.image = joined(std::move(picture));
   return exemplar;
+}
+
+void check_weights(const Image& weights, const MixEntry& mix, const std::string& place) {
+  for (int y = 0; y < weights.height; ++y)
+    for (int x = 0; x < weights.width; ++x)
+      if (std::all_of(weights.at(x, y), weights.at(x, y) + weights.channels,
+                      [](float v) { return v <= 0; }))
+        throw ConfigError("{}: at ({}, {}) the weights are all 0, by {}", place, x, y,
+                          mix.images.empty() ? "'weights'" : mix.images.front().string());
 }
 
 // The texture's weights of `count` exemplars, for those that have any.
@@ -49,11 +58,13 @@ Image weights_of(const MixEntry& mix, std::size_t count, Size size, const std::s
       to[two_in_one ? 1 : i] = picture.pixels[p];
     }
   }
+  check_weights(weights, mix, place);
   return weights;
 }
 
-// Leaves out the exemplars that have no weight anywhere.
-void drop_weightless(std::vector<Exemplar>& exemplars, Image& weights) {
+// Leaves out the exemplars that have no weight anywhere, and their guides' names.
+void drop_weightless(std::vector<Exemplar>& exemplars, std::vector<fs::path>& guides,
+                     Image& weights) {
   const auto count = static_cast<std::size_t>(weights.channels);
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < count; ++i) {
@@ -64,12 +75,15 @@ void drop_weightless(std::vector<Exemplar>& exemplars, Image& weights) {
   if (kept.size() == count) return;
   Image rest(weights.size(), static_cast<int>(kept.size()));
   std::vector<Exemplar> left;
+  std::vector<fs::path> names;
   for (std::size_t k = 0; k < kept.size(); ++k) {
     left.push_back(std::move(exemplars[kept[k]]));
+    if (!guides.empty()) names.push_back(guides[kept[k]]);
     for (std::size_t p = 0; p * count < weights.pixels.size(); ++p)
       rest.pixels[p * kept.size() + k] = weights.pixels[p * count + kept[k]];
   }
   exemplars = std::move(left);
+  guides = std::move(names);
   weights = kept.size() == 1 ? Image() : std::move(rest);
 }
 
@@ -87,6 +101,15 @@ Image turn_of(const TurnEntry& turn, Size size, const std::string& place) {
   read(turn.angle, "the angles", 0, turn.angles[0] / 360, turn.angles[1] / 360);
   read(turn.scale, "the scales", 1, std::log2(turn.scales[0]), std::log2(turn.scales[1]));
   return result;
+}
+
+void shrink_all(const ExemplarEntry& entry, std::vector<Exemplar>& exemplars) {
+  for (Exemplar& exemplar : exemplars) {
+    shrink(exemplar, *entry.max_side);
+    if (!exemplar.mask.empty() && std::ranges::count(exemplar.mask.pixels, 1.0f) == 0)
+      throw ConfigError("{}: at max_side = {} nothing of {} is left that its mask lets be used",
+                        entry.place, *entry.max_side, entry.image.string());
+  }
 }
 
 }  // namespace
@@ -120,6 +143,10 @@ LoadedRequest load_request(const Config& config, std::optional<std::size_t> numb
     loaded.exemplars.push_back(exemplar_of(entries[i], std::move(pictures[i]), entry.place));
   if (direction.fill) {
     loaded.metadata = pictures.back().metadata;
+    std::erase_if(loaded.metadata, [](const auto& text) {  // ours are of how it was made
+      return text.first.starts_with("gramloom:");
+    });
+    if (entry.is_filled) loaded.filled_at = corner_of(*direction.fill);
     Filling filling = filling_of(*direction.fill, pictures.back(), config.size, entry.is_filled,
                                  place_of(config, "fill"));
     if (entry.is_filled)
@@ -128,16 +155,17 @@ LoadedRequest load_request(const Config& config, std::optional<std::size_t> numb
     loaded.target.known = std::move(filling.known);
     loaded.target.mask = std::move(filling.mask);
   }
-  if (direction.guide) add_guides(config, entry, loaded.exemplars, loaded.target);
-  if (entry.max_side)
-    for (Exemplar& exemplar : loaded.exemplars) shrink(exemplar, *entry.max_side);
-  if (direction.turn)
-    loaded.target.turn = turn_of(*direction.turn, config.size, place_of(config, "turn"));
+  std::vector<fs::path> guides;
+  for (const ExemplarPicture& picture : entries) guides.push_back(picture.guide);
   if (direction.mix) {
     loaded.target.weights =
         weights_of(*direction.mix, loaded.exemplars.size(), config.size, place_of(config, "mix"));
-    drop_weightless(loaded.exemplars, loaded.target.weights);
+    drop_weightless(loaded.exemplars, guides, loaded.target.weights);
   }
+  if (direction.guide) add_guides(config, guides, loaded.exemplars, loaded.target);
+  if (entry.max_side) shrink_all(entry, loaded.exemplars);
+  if (direction.turn)
+    loaded.target.turn = turn_of(*direction.turn, config.size, place_of(config, "turn"));
   return loaded;
 }
 

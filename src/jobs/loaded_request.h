@@ -7,6 +7,7 @@
 #include "core/request.h"
 #include "jobs/config.h"
 #include "jobs/exemplar.h"
+#include "jobs/filling.h"
 
 namespace gramloom {
 
@@ -18,6 +19,7 @@ struct LoadedRequest {
   std::vector<ExemplarFile> files;  // of a result: its picture, then its maps by name
   std::vector<std::string> notes;   // where values are not quite those of the files
   Metadata metadata;                // of the picture that is filled
+  std::optional<Corner> filled_at;  // where that lies in the texture, if it is the exemplar
 };
 
 /// Of this exemplar of the config; of none: for a method without. Throws ConfigError when files

@@ -71,6 +71,8 @@ class Guard {
     for (const std::string& stem : kept_files(exemplar))
       for (const std::string extension : {".png", ".tif", ".exr"})
         check(folder / (stem + extension), [&](const fs::path&) { return ours; });
+    for (const std::string& stem : kept_directions(exemplar))
+      check(folder / (stem + ".png"), is_kept);
   }
 
   void check_job(const PlannedJob& planned) {

@@ -141,23 +141,30 @@ Image joined(PictureFiles picture) {
   return image;
 }
 
-Image brightness(const Image& picture) {
-  const int colours =
-      picture.channels == 2 || picture.channels == 4 ? picture.channels - 1 : picture.channels;
+Image without_alpha(ImageFile picture) {
+  const std::vector<std::string>& names = picture.encoding.channel_names;
+  if (picture.image.channels < 2 || names.empty() || names.back() != "A")
+    return std::move(picture.image);
+  return extract_channels(picture.image, 0, picture.image.channels - 1);
+}
+
+Image brightness(ImageFile file) {
+  const Image picture = without_alpha(std::move(file));
   Image result(picture.size(), 1);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
       float sum = 0;
-      for (int c = 0; c < colours; ++c) sum += picture.at(x, y)[c];
-      *result.at(x, y) = sum / static_cast<float>(colours);
+      for (int c = 0; c < picture.channels; ++c) sum += picture.at(x, y)[c];
+      *result.at(x, y) = sum / static_cast<float>(picture.channels);
     }
   return result;
 }
 
-Image read_sized(const fs::path& file, Size size, const std::string& what, const std::string& of,
-                 const std::string& place) {
-  Image image = read_image(file).image;
-  if (image.size() == size) return image;
+ImageFile read_sized(const fs::path& file, Size size, const std::string& what,
+                     const std::string& of, const std::string& place) {
+  ImageFile read = read_image(file);
+  const Image& image = read.image;
+  if (image.size() == size) return read;
   throw ConfigError("{}: {} {} has {}×{} pixels and {} {}×{}: they must be equal", place, what,
                     file.string(), image.width, image.height, of, size.width, size.height);
 }

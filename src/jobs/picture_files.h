@@ -36,10 +36,13 @@ Image read_mask(const FileOrName& mask, const PictureFiles& picture, const std::
                 const std::string& place);
 
 /// A picture that must have this size, that of `of`. Throws ConfigError that names both.
-Image read_sized(const std::filesystem::path& file, Size size, const std::string& what,
-                 const std::string& of, const std::string& place);
+ImageFile read_sized(const std::filesystem::path& file, Size size, const std::string& what,
+                     const std::string& of, const std::string& place);
 
-/// Mean of the colours, one channel; alpha does not count.
-Image brightness(const Image& picture);
+/// The channels but for alpha: a last one that is called "A".
+Image without_alpha(ImageFile picture);
+
+/// Mean of those, one channel.
+Image brightness(ImageFile picture);
 
 }  // namespace gramloom

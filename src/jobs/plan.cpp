@@ -6,6 +6,7 @@
 
 #include "core/abilities.h"
 #include "jobs/loaded_request.h"
+#include "jobs/memory.h"
 #include "jobs/pattern.h"
 #include "jobs/results.h"
 #include "metrics/scores.h"
@@ -46,10 +47,20 @@ void check_height(const Config& config, const ExemplarEntry& exemplar,
   }
 }
 
+// What a picture is extended to is in memory before anything else is known.
+void check_canvas(const Config& config) {
+  if (!config.direction.fill) return;
+  const double bytes = 20.0 * config.size.width * config.size.height;
+  if (const double free = available_memory(); bytes > free)
+    throw Error("a picture of {}×{} pixels needs about {:.1f} GB of memory, {:.1f} GB are free",
+                config.size.width, config.size.height, bytes / 1e9, free / 1e9);
+}
+
 ExemplarFacts look_at(const Config& config, std::size_t number) {
   ExemplarFacts facts;
   const ExemplarEntry& exemplar = config.exemplars[number];
   try {
+    check_canvas(config);
     LoadedRequest loaded = load_request(config, number);
     facts.files = std::move(loaded.files);
     check_values(exemplar, loaded);
@@ -100,7 +111,11 @@ Cost cost_of_finishing(const Config& config, const Job& job) {
 // Of a filled picture only the joins are scored.
 Cost cost_of_scoring(const Config& config, const ExemplarFacts& facts) {
   Cost cost;
-  if (config.direction.fill) return {1e7, 0.1};
+  if (config.direction.fill) {
+    const double values =
+        1.0 * config.size.width * config.size.height * (facts.files.front().channels + 1);
+    return {1e7 + 8 * values, 0.1 + 1e-7 * values};
+  }
   for (const ExemplarSize& exemplar : facts.request.exemplars) {
     const Cost one = estimate_scores(exemplar.size, facts.files.front().channels, config.size);
     cost = {std::max(cost.bytes, one.bytes), cost.seconds + one.seconds};
@@ -131,7 +146,7 @@ void estimate_job(const Config& config, const Plan& plan, PlannedJob& planned) {
 std::vector<PlannedDiversity> plan_diversities(const Config& config, const Plan& plan) {
   std::map<std::string, int> seeds;
   std::vector<PlannedDiversity> diversities;
-  if (!config.scores) return diversities;
+  if (!config.scores || config.direction.fill) return diversities;
   for (const PlannedJob& planned : plan.jobs) {
     if (!planned.selected || !planned.job.exemplar || !planned.error.empty()) continue;
     const std::string name = job_folder(config, planned.job);
@@ -155,6 +170,12 @@ std::vector<Job> all_jobs(const Config& config) {
   for (std::size_t exemplar = 0; exemplar < config.exemplars.size(); ++exemplar)
     add(exemplar, true);
   return jobs;
+}
+
+// By a picture, not by the config.
+bool size_is_given(const Direction& direction) {
+  return direction.fill || direction.guide || direction.turn ||
+         (direction.mix && !direction.mix->images.empty());
 }
 
 std::string refusal_of(std::string_view work, const Cost& cost, double available) {
@@ -245,6 +266,7 @@ std::string memory_refusal(const Config& config, const Plan& plan, const Planned
   }
   const std::string needs = fmt::format("needs about {:.1f} GB of memory, {:.1f} GB are free",
                                         planned.cost.bytes / 1e9, available / 1e9);
+  if (size_is_given(config.direction)) return needs;
   const Size largest = scaled(low);
   if (low > 0 && largest.width >= 16 && largest.height >= 16)
     return fmt::format("{}; size = [{}, {}] would fit", needs, largest.width, largest.height);

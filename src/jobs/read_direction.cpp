@@ -12,6 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int longest_side = 65536;
+
 void check_pair(const std::vector<double>& values, const toml::table& table, std::string_view key) {
   if (values.size() != 2)
     fail(key_region(table, key), "'{}' has {} {}: it must be two, for black and for white", key,
@@ -30,6 +32,9 @@ void check_entry(const MixEntry& mix, const toml::table& table) {
 void check_entry(const TurnEntry& turn, const toml::table& table) {
   if (turn.angle.empty() && turn.scale.empty())
     fail(table.source(), "[turn] needs 'angle' or 'scale', or both");
+  for (const auto& [key, file] : {std::pair{"angles", &turn.angle}, {"scales", &turn.scale}})
+    if (table.contains(key) && file->empty())
+      fail(key_region(table, key), "'{}' without a picture of them does nothing", key);
   check_pair(turn.angles, table, "angles");
   check_pair(turn.scales, table, "scales");
 }
@@ -44,6 +49,8 @@ void check_entry(FillEntry& fill, const toml::table& table) {
                    "'extend' has {} numbers: it must be one for all sides, or left, top, right and "
                    "bottom",
                    fill.extend.size());
+  if (fill.band > 0 && fill.seamless == Tile::none)
+    gramloom::fail(key_region(table, "band"), "'band' without 'seamless' does nothing");
   if (fill.mask.empty() && fill.seamless == Tile::none &&
       std::ranges::all_of(fill.extend, [](int side) { return side == 0; }))
     gramloom::fail(table.source(),
@@ -94,10 +101,20 @@ void follow_fill(Config& config, toml::table& table) {
   if (table.contains("size"))
     gramloom::fail(key_region(table, "size"),
                    "with [fill] the results have the size of its picture: leave 'size' out");
+  if (table.contains("pixel_type"))
+    gramloom::fail(key_region(table, "pixel_type"),
+                   "with [fill] the results have the pixel type of its picture: leave it out");
+  if (config.format == FileFormat::jpg)
+    gramloom::fail(key_region(table, "format"),
+                   "a jpg does not keep what [fill] leaves as it is: choose another format");
   config.size = size_of_picture(fill.image, key_region(section, "image"));
   if (!fill.extend.empty()) {
     config.size.width += fill.extend[0] + fill.extend[2];
     config.size.height += fill.extend[1] + fill.extend[3];
+    if (std::max(config.size.width, config.size.height) > longest_side)
+      gramloom::fail(key_region(section, "extend"),
+                     "'extend' makes it {}×{} pixels: a side has at most {}", config.size.width,
+                     config.size.height, longest_side);
   }
   if (fill.seamless != Tile::none) {
     if (table.contains("tile") && config.tile != fill.seamless)
@@ -112,6 +129,9 @@ void check_mix(const Config& config, toml::table& table) {
   const toml::table& section = *single_section(table, "mix");
   for (const ExemplarEntry& exemplar : config.exemplars) {
     const std::size_t pictures = 1 + exemplar.more.size();
+    if (pictures == 1)
+      fail(section.source(), "[mix] needs several 'images': the exemplar '{}' is one picture",
+           exemplar.name);
     const bool weights = !mix.weights.empty();
     const std::size_t count = weights ? mix.weights.size() : mix.images.size();
     if (count == pictures || (!weights && count == 1 && pictures == 2)) continue;
@@ -161,6 +181,9 @@ void follow_direction(Config& config, toml::table& table) {
   else if (const auto size = size_of_maps(direction, table); size && !table.contains("size"))
     config.size = *size;
   if (direction.mix) check_mix(config, table);
+  if (direction.turn && config.coordinates)
+    fail(key_region(table, "coordinates"),
+         "[turn] makes pixels that are between the exemplar's: there are no coordinates of them");
   check_guides(config);
 }
 

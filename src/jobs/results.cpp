@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "jobs/machine.h"
+#include "jobs/names.h"
 
 namespace gramloom {
 
@@ -82,6 +83,11 @@ OutputFormat output_format(const Config& config, const Encoding& exemplar, int c
   return output;
 }
 
+bool is_lossy(const std::string& extension) {
+  const std::string small = in_small_letters(extension);
+  return small == ".jpg" || small == ".jpeg" || small == ".webp";
+}
+
 OutputFormats output_formats(const Config& config, const std::vector<ExemplarFile>& files,
                              const Texture& texture) {
   const Encoding encoding = files.empty() ? Encoding() : files.front().encoding;
@@ -118,7 +124,7 @@ WrittenTexture write_texture(const fs::path& folder, const std::string& name,
   const auto write = [&](const std::string& stem, const Image& image, const OutputFormat& format) {
     const std::string file = stem + format.extension;
     Metadata metadata = format.green ? green_metadata(*format.green) : Metadata();
-    metadata.insert(picture.begin(), picture.end());
+    if (stem == name) metadata.insert(picture.begin(), picture.end());
     metadata["gramloom:settings"] = settings_text;
     auto notes = write_image(folder / file, image, format.encoding, metadata);
     written.files.push_back(file);

@@ -26,6 +26,9 @@ struct OutputFormat {
 };
 OutputFormat output_format(const Config& config, const Encoding& exemplar, int channels);
 
+/// Whether files with this extension do not give back what was written.
+bool is_lossy(const std::string& extension);
+
 /// Those of a texture and of its maps by name. A map of the exemplar's keeps its file's encoding;
 /// one that the method thought of has the texture's, with finer steps where it has other channels;
 /// one that is made of a height has the height's pixel type.

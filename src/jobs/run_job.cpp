@@ -111,9 +111,11 @@ void write_results(Run& run, const Work& work, Texture joined, const TraceLog& t
       write_texture(files.folder, files.name, texture, formats, record.settings, run.metadata);
   record.files = written.files;
   record.normals = normals_of(formats);
-  if (run.config.coordinates && !run.source.empty())
-    record.files.push_back(
-        write_arrangement(files.folder, files.name, arrangement_of(run.source, work.request)));
+  if (run.config.coordinates && run.source.empty())
+    record.notes.push_back("no coordinates: this method copies no pixels");
+  else if (run.config.coordinates)
+    record.files.push_back(write_arrangement(
+        files.folder, files.name, arrangement_of(run.source, work.request, run.filled_at)));
   const std::string preview = write_preview(
       files.folder, files.name, run.config, {work.method, work.request.random, texture, formats},
       run.hashes, run.environment, shown_work(run), record.notes);
@@ -194,6 +196,7 @@ const Request& request_of(Run& run, const Job& job) {
   run.files = std::move(loaded.files);
   run.notes = std::move(loaded.notes);
   run.metadata = std::move(loaded.metadata);
+  run.filled_at = loaded.filled_at;
   run.loaded = std::move(files);
   return run.request;
 }

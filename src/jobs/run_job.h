@@ -6,6 +6,7 @@
 
 #include "core/progress.h"
 #include "jobs/exemplar.h"
+#include "jobs/filling.h"
 #include "jobs/inputs.h"
 #include "jobs/job_preview.h"
 #include "jobs/plan.h"
@@ -39,6 +40,7 @@ struct Run {
   std::vector<ExemplarFile> files = {};  // of that exemplar
   std::vector<std::string> notes = {};   // likewise: where its values are not those of the files
   Metadata metadata = {};                // of the picture that is filled
+  std::optional<Corner> filled_at = {};  // where it lies in the texture, if it is the exemplar
   std::vector<ExemplarStatistics> statistics = {};  // of its pictures, for the scores
 
   PreviewEnvironment environment = {};  // of the previews

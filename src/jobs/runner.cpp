@@ -176,7 +176,7 @@ void add_diversity(Run& run, const JobGroup& group, RunLog& log, RunSummary& sum
   const Job& first = group.front()->job;
   const bool selected = std::any_of(group.begin(), group.end(),
                                     [](const auto* planned) { return planned->selected; });
-  if (!run.config.scores || !first.exemplar || !selected) return;
+  if (!run.config.scores || run.config.direction.fill || !first.exemplar || !selected) return;
   const std::vector<NamedRecord> finished = finished_jobs(run, group);
   SeedDiversity diversity = diversity_of_records(exemplar_name(run.config, first),
                                                  run.config.methods[first.method].name, finished);

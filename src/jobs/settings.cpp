@@ -46,6 +46,7 @@ Json exemplar_settings(const ExemplarEntry& exemplar, const std::vector<std::str
   auto hash = hashes.begin();
   Json settings = picture_settings(exemplar, hash);
   settings["max_side"] = value_to_json(exemplar.max_side, {});
+  if (exemplar.is_filled) settings["filled"] = true;  // what is to be made is masked
   for (const ExemplarPicture& picture : exemplar.more)
     settings["more"].push_back(picture_settings(picture, hash));
   return settings;

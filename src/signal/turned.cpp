@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <set>
@@ -17,7 +18,8 @@ namespace {
 /// How much the guide of turns counts: neighbouring steps of 15° then differ by half of a picture's
 /// variance, so that a copy is used where it belongs and a little beyond.
 constexpr float guide_weight = 3;
-constexpr int turn_channels = 3;  // of the guide: cosine, sine, logarithm of the scale
+constexpr double longest_row = 60'000;  // that sources can name
+constexpr int turn_channels = 3;        // of the guide: cosine, sine, logarithm of the scale
 
 /// Turns and scales in steps, as whole numbers of these.
 struct Steps {
@@ -53,14 +55,16 @@ Size size_of_copy(Size size, double turn, double scale) {
 
 double pixels_of_copies(const std::vector<Exemplar>& exemplars, const std::set<Step>& all,
                         const Steps& steps) {
-  double pixels = 0;
+  double width = 0;  // side by side, as methods lay them
+  double height = 0;
   for (const Exemplar& exemplar : exemplars)
     for (const auto& [turn, scale] : all) {
       const Size size =
           size_of_copy(exemplar.image.size(), turn * steps.turn, std::exp2(scale * steps.scale));
-      pixels += 1.0 * size.width * size.height;
+      width += size.width + 1;
+      height = std::max(height, 1.0 * size.height);
     }
-  return pixels;
+  return width > longest_row ? std::numeric_limits<double>::infinity() : width * height;
 }
 
 /// As fine as the copies' pixels allow.
@@ -220,7 +224,10 @@ Turned::Copy Turned::add_copy(const Exemplar& exemplar, std::size_t number, doub
   const cv::Matx23d back(c, -s, ox - c * cx + s * cy, s, c, oy - s * cx - c * cy);
   Exemplar copy;
   copy.layers = exemplar.layers;
-  copy.image = turned_image(exemplar.image, size, back, scale);
+  // Filters reach over masked pixels: these hold what is beside them.
+  copy.image =
+      turned_image(exemplar.mask.empty() ? exemplar.image : extended(exemplar.image, exemplar.mask),
+                   size, back, scale);
   clamp_to(copy.image, channel_range(exemplar.image));
   for (const Layer& layer : copy.layers)
     if (layer.kind == MapKind::normal) turn_normals(copy.image, layer, turn);
@@ -251,8 +258,8 @@ RequestSize size_of_turned(const RequestSize& request) {
   double area = 0;
   for (const ExemplarSize& exemplar : request.exemplars)
     area += 1.0 * exemplar.size.width * exemplar.size.height;
-  // Full circles of copies with their corners.
-  const int side = static_cast<int>(std::sqrt(std::min(Turned::most_pixels, 24 * 2 * area)));
+  // Full circles of copies with their corners, some of them enlarged.
+  const int side = static_cast<int>(std::sqrt(std::min(Turned::most_pixels, 24 * 2 * 4 * area)));
   ExemplarSize all = request.exemplars.front();
   all.size = {side, side};
   all.mask = all.guide = true;

@@ -10,13 +10,13 @@ namespace gramloom {
 /// each turned and scaled as some part of the target asks, with masks where a copy has no pixels,
 /// and a guide says which copy belongs where. So every method that takes several exemplars, masks
 /// and a guide can lay wood round a corner. Turns are rounded to 15°, scales to a quarter of an
-/// octave, or more coarsely where copies would have more than `most_pixels` together.
+/// octave, or more coarsely where copies, side by side, would have more than `most_pixels`.
 ///
 /// Values are interpolated (cubic, clamped to the exemplar's range), and normals turn with their
 /// picture.
 class Turned {
  public:
-  static constexpr double most_pixels = 16e6;
+  static constexpr double most_pixels = 24e6;
 
   /// Throws Error for a request whose exemplars are too large for two copies.
   explicit Turned(const Request& request);

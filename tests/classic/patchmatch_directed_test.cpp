@@ -246,5 +246,14 @@ TEST(PatchWindows, HolesFarApartAreApartAndThoseAcrossAnEdgeAreNot) {
   }
 }
 
+TEST(DirectedPatchmatch, TinyPicturesOfAMaterialAreLeftOutWhereTheyAreTooNarrow) {
+  Image large(128, 128, 3);
+  for (std::size_t p = 0; p < large.pixels.size(); ++p)
+    large.pixels[p] = static_cast<float>((p * 7919) % 101) / 101;
+  const Request request{
+      {{large}, {Image(1, 1, 3, 0.5f)}, {Image(1, 1, 3, 0.25f)}}, {{128, 128}}, Random(1)};
+  EXPECT_NO_THROW(synthesise(PatchmatchParams{.iterations = 1}, request, {}));
+}
+
 }  // namespace
 }  // namespace gramloom

@@ -60,14 +60,14 @@ TEST_F(FillCommand, KeepsBitsProfileAndMetadata) {
 TEST_F(FillCommand, CoordinatesArrangeTheSamePictureAgain) {
   ASSERT_EQ(run({"run", "f.toml", "--quiet"}).exit_code, 0);
   const std::string coordinates = "out/f/e/patchmatch/seed1_coordinates.tif";
-  const Outcome outcome = run({"arrange", coordinates, "e.png", "e.png", "--output", "again.png"});
+  const Outcome outcome = run({"arrange", coordinates, "e.png", "--output", "again.png"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(read_image(folder_ / "again.png").image,
             read_image(folder_ / "out/f/e/patchmatch/seed1.png").image);
-  EXPECT_EQ(run({"arrange", coordinates, "e.png", "--output", "a.png"}).exit_code, 2);
-  EXPECT_EQ(run({"arrange", coordinates, "e.png", "hole.png", "--output", "a.png"}).exit_code, 2);
-  EXPECT_EQ(run({"arrange", "e.png", "e.png", "--output", "a.png"}).exit_code, 1);
-  EXPECT_EQ(run({"arrange", coordinates, "e.png", "e.png", "--output", "e.png"}).exit_code, 2);
+  EXPECT_EQ(run({"arrange", coordinates, "e.png", "e.png", "--output", "a.png"}).exit_code, 2);
+  EXPECT_EQ(run({"arrange", coordinates, "e.png", "--output", "a.jpg"}).exit_code, 2);
+  EXPECT_EQ(run({"arrange", "e.png", "e.png", "--output", "a.png"}).exit_code, 2);
+  EXPECT_EQ(run({"arrange", coordinates, "e.png", "--output", "e.png"}).exit_code, 2);
 }
 
 TEST_F(FillCommand, ARunResumesAndKeepsWhatItWasAsked) {
@@ -88,6 +88,17 @@ TEST_F(FillCommand, ARunResumesAndKeepsWhatItWasAsked) {
   EXPECT_THAT(changed.errors, testing::Not(HasSubstr("finished before")));
 }
 
+TEST_F(FillCommand, AFileOfTheUserIsNotTakenForAnOldGuide) {
+  ASSERT_EQ(run({"run", "f.toml", "--quiet"}).exit_code, 0);
+  ASSERT_EQ(run({"run", "f.toml", "--quiet"}).exit_code, 0);  // its own are replaced
+  write_image(folder_ / "out/f/e/target_guide.png", Image(8, 8, 1, 0.5f), {});
+  const std::string before = file("out/f/e/target_guide.png");
+  const Outcome outcome = run({"run", "f.toml", "--quiet"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.errors, HasSubstr("target_guide.png, which no run of gramloom made"));
+  EXPECT_EQ(file("out/f/e/target_guide.png"), before);
+}
+
 TEST_F(FillCommand, MistakesAreOneLineAndExitCode2) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{"e.png", "--output", "a.png"}, "needs 'mask', 'seamless' or 'extend'"},
@@ -97,6 +108,8 @@ TEST_F(FillCommand, MistakesAreOneLineAndExitCode2) {
       {{"e.png", "--mask", "hole.png", "--method", "phase", "--output", "a.png"},
        "methods that can"},
       {{"e.png", "--mask", "hole.png", "--method", "pixle", "--output", "a.png"}, "pixel"},
+      {{"e.png", "--mask", "hole.png", "--output", "a.jpg"}, "would not keep"},
+      {{"e.png", "--mask", "hole.png", "--output", "none/a.png"}, "there is no folder"},
       {{"e.png", "--mask", "nothing.png", "--output", "a.png"}, "nothing.png"},
   };
   for (const auto& [arguments, message] : cases) {

@@ -34,6 +34,7 @@ class DirectionOfConfig : public testing::Test {
     write("white.png", Image(32, 24, 1, 1.0f));
     write("small.png", Image(8, 8, 1));
     write("hole.png", picture({32, 24}, 1, [](int x, int) { return x < 10 ? 1.0f : 0.0f; }));
+    write("left.png", picture({32, 24}, 1, [](int x, int) { return x < 16 ? 1.0f : 0.0f; }));
     write("two.png", picture({32, 24}, 1, [](int x, int) { return x < 16 ? 0.2f : 0.8f; }));
     write("three.png", picture({40, 30}, 1, [](int x, int) {
             return 0.2f + 0.3f * static_cast<float>(x / 14);
@@ -184,8 +185,8 @@ TEST_F(DirectionOfConfig, TurnsAndScalesAreReadFromPictures) {
 }
 
 TEST_F(DirectionOfConfig, SettingsNameWhatDirects) {
-  const Config config =
-      parse("coordinates = true\n[fill]\nimage = 'e.png'\nmask = 'hole.png'\nband = 3\n");
+  const Config config = parse(
+      "coordinates = true\n[fill]\nimage = 'e.png'\nmask = 'hole.png'\nseamless = 'x'\nband = 3\n");
   FileHashes hashes;
   const Job job = make_plan(config).jobs.front().job;
   const Json before = job_settings(config, job, input_hashes(config, job, hashes));
@@ -193,6 +194,37 @@ TEST_F(DirectionOfConfig, SettingsNameWhatDirects) {
   write("hole.png", Image(32, 24, 1, 1.0f));
   const Json after = job_settings(config, job, input_hashes(config, job, hashes));
   EXPECT_NE(before, after) << "another mask is another job";
+}
+
+TEST_F(DirectionOfConfig, AFilledPictureIsNotTheSameExemplarAsOneNamed) {
+  const std::string fill = "[fill]\nimage = 'e.png'\nmask = 'hole.png'\n";
+  const Config itself = parse(fill);
+  const Config named = parse(fill + "[[exemplar]]\nname = 'e'\nimage = 'e.png'\n");
+  FileHashes hashes;
+  const Job job{0, 0, 1};
+  EXPECT_NE(job_settings(itself, job, input_hashes(itself, job, hashes)),
+            job_settings(named, job, input_hashes(named, job, hashes)));
+}
+
+TEST_F(DirectionOfConfig, GuidesKeepChannelsThatAreNoAlpha) {
+  const Encoding fields{PixelType::float32, "", {"cosine", "sine"}};
+  write("field.tif",
+        picture({32, 24}, 2, [](int x, int y) { return 0.01f * static_cast<float>(x * y); }),
+        fields);
+  const LoadedRequest loaded = load(
+      "[guide]\nimage = 'field.tif'\nkind = 'values'\n[[exemplar]]\nname = 'e'\nimage = "
+      "'e.png'\nguide = 'field.tif'\n");
+  EXPECT_EQ(loaded.target.guide.channels, 2);
+}
+
+TEST_F(DirectionOfConfig, KnownPixelsOfAPictureFilledOfItselfAreItsOwn) {
+  const LoadedRequest loaded = load("[fill]\nimage = 'e.png'\nextend = [3, 2, 0, 0]\n");
+  ASSERT_TRUE(loaded.filled_at);
+  const Arrangement arrangement = arrangement_of(
+      SourceMap(loaded.target.size), {loaded.exemplars, loaded.target}, loaded.filled_at);
+  EXPECT_EQ(arrangement.pictures, std::vector<Size>({{32, 24}}));
+  EXPECT_EQ(*arrangement.source.at(3, 2), Source(0, 0));
+  EXPECT_EQ(*arrangement.source.at(34, 25), Source(31, 23));
 }
 
 TEST_F(DirectionOfConfig, MistakesAreOneLineThatNamesBothSides) {
@@ -225,6 +257,16 @@ TEST_F(DirectionOfConfig, MistakesAreOneLineThatNamesBothSides) {
       {"[mix]\n" + two, "needs 'weights' or 'images'"},
       {"[mix]\nimages = ['two.png', 'small.png']\n" + two,
        "small.png has 8×8 pixels and the texture 32×24"},
+      {"[mix]\nimages = ['black.png', 'black.png']\n" + two, "at (0, 0) the weights are all 0"},
+      {"[mix]\nweights = [1]\n" + e, "the exemplar 'e' is one picture"},
+      {"[guide]\nimage = 'two.png'\n" + e + "guide = 'two.png'\nmask = 'left.png'\n",
+       "has the label (204) at (16, 0), which two.png has not where it may be used"},
+      {"[turn]\nangle = 'two.png'\nscales = [1, 2]\n" + e, "'scales' without a picture"},
+      {"coordinates = true\n[turn]\nangle = 'two.png'\n" + e, "no coordinates of them"},
+      {"[fill]\nimage = 'e.png'\nmask = 'hole.png'\nband = 4\n", "'band' without 'seamless'"},
+      {"pixel_type = 'half'\n[fill]\nimage = 'e.png'\nmask = 'hole.png'\n", "pixel type of its"},
+      {"format = 'jpg'\n[fill]\nimage = 'e.png'\nmask = 'hole.png'\n", "a jpg does not keep"},
+      {"[fill]\nimage = 'e.png'\nextend = 60000\n", "a side has at most 65536"},
       {"[turn]\n" + e, "needs 'angle' or 'scale'"},
       {"[turn]\nangle = 'two.png'\nangles = [1]\n" + e, "'angles' has 1 number"},
       {"[[exemplar]]\nname = 'e'\nimages = []\n", "'images' is empty"},

@@ -87,6 +87,23 @@ TEST(Turned, MaskedPixelsStayOut) {
       }
 }
 
+TEST(Turned, FiltersSeeNothingOfMaskedPixels) {
+  Exemplar exemplar{Image(40, 40, 1, 0.5f), {}, Image(40, 40, 1, 1.0f)};
+  for (int y = 10; y < 20; ++y)
+    for (int x = 10; x < 20; ++x) {
+      *exemplar.image.at(x, y) = 1;
+      *exemplar.mask.at(x, y) = 0;
+    }
+  for (const float scale : {-1.3f, 0.0f, 0.5f}) {
+    const Turned turned(turned_by(exemplar, 1.0f / 12, scale));
+    const Exemplar& copy = turned.request().exemplars.at(0);
+    for (std::size_t p = 0; p < copy.image.pixels.size(); ++p)
+      if (copy.mask.pixels[p] > 0.5f) {
+        ASSERT_NEAR(copy.image.pixels[p], 0.5f, 1e-4f);
+      }
+  }
+}
+
 TEST(Turned, CopiesStayWithinTheirPixels) {
   Request request{{{ramp({600, 600})}}, {{64, 64}}};
   request.target.turn = Image(64, 64, 2);
