@@ -37,7 +37,7 @@ double area(Size size) { return static_cast<double>(size.width) * size.height; }
 /// A target that a patch fits in: what is added is made, and cut off in the end.
 Target padded(const Target& target, Size size) {
   const auto wider = [&](const Image& map) {
-    if (map.empty()) return map;
+    if (map.empty()) return Image();  // not the map: GCC 14 warns of copying nothing
     Image result(size, map.channels);
     for (int y = 0; y < size.height; ++y)
       for (int x = 0; x < size.width; ++x)
