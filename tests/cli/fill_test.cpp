@@ -74,6 +74,9 @@ TEST_F(FillCommand, ARunResumesAndKeepsWhatItWasAsked) {
   ASSERT_EQ(run({"run", "f.toml", "--quiet"}).exit_code, 0);
   for (const char* name : {"exemplar.png", "exemplar_usable.png", "target_mask.png"})
     EXPECT_TRUE(fs::exists(folder_ / "out/f/e" / name)) << name;
+  EXPECT_THAT(file("out/f/index.html"), HasSubstr("what is made anew"));
+  EXPECT_EQ(run({"run", "f.toml", "--baseline", "out/f", "--output", "now", "--quiet"}).exit_code,
+            0);
   const auto before = record("e/patchmatch/seed1", "out/f");
   ASSERT_TRUE(before);
   EXPECT_TRUE(before->metrics.contains("join"));
