@@ -128,7 +128,7 @@ std::vector<FillWindow> fill_windows(const Request& request, double most) {
 }
 
 Texture fill_by_windows(const Request& request, const std::vector<FillWindow>& windows,
-                        const std::function<Texture(const Request&)>& fill,
+                        const std::function<Texture(const Request&, const Control&)>& fill,
                         const Control& control) {
   const std::size_t same = *same_picture(request);
   const Size size = request.target.size;
@@ -136,25 +136,31 @@ Texture fill_by_windows(const Request& request, const std::vector<FillWindow>& w
   const auto channels = static_cast<std::size_t>(whole.image.channels);
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) *whole.source.at(x, y) = {x, y, static_cast<int>(same)};
+  const auto fill_one = [&](std::size_t w, const Control& own) {
+    const FillWindow& window = windows[w];
+    const Texture part = fill(request_of(request, same, window, w), own);
+    for (const std::size_t i : window.made) {
+      const int x = static_cast<int>(i) % size.width, y = static_cast<int>(i) / size.width;
+      std::copy_n(part.image.at(x - window.left, y - window.top), channels,
+                  whole.image.pixels.begin() + static_cast<std::ptrdiff_t>(i * channels));
+      Source from = *part.source.at(x - window.left, y - window.top);
+      if (from.exemplar == same)
+        from = {static_cast<int>(from.x) + window.left, static_cast<int>(from.y) + window.top,
+                static_cast<int>(same)};
+      whole.source.pixels[i] = from;
+    }
+  };
+  // A single one has all threads to itself.
+  if (windows.size() == 1) {
+    fill_one(0, control);
+    return whole;
+  }
   const auto count = static_cast<std::int64_t>(windows.size());
   constexpr std::int64_t at_once = 8;  // whatever the threads
   for (std::int64_t first = 0; first < count; first += at_once) {
     control.step(first, count);
     parallel_for(std::min(at_once, count - first), 1, [&](std::int64_t begin, std::int64_t end) {
-      for (auto w = first + begin; w < first + end; ++w) {
-        const FillWindow& window = windows[static_cast<std::size_t>(w)];
-        const Texture part = fill(request_of(request, same, window, static_cast<std::uint64_t>(w)));
-        for (const std::size_t i : window.made) {
-          const int x = static_cast<int>(i) % size.width, y = static_cast<int>(i) / size.width;
-          std::copy_n(part.image.at(x - window.left, y - window.top), channels,
-                      whole.image.pixels.begin() + static_cast<std::ptrdiff_t>(i * channels));
-          Source from = *part.source.at(x - window.left, y - window.top);
-          if (from.exemplar == same)
-            from = {static_cast<int>(from.x) + window.left, static_cast<int>(from.y) + window.top,
-                    static_cast<int>(same)};
-          whole.source.pixels[i] = from;
-        }
-      }
+      for (auto w = first + begin; w < first + end; ++w) fill_one(static_cast<std::size_t>(w), {});
     });
   }
   control.step(count, count);

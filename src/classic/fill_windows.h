@@ -25,8 +25,11 @@ struct FillWindow {
 /// together they would be more than `most` times the picture: they overlap.
 std::vector<FillWindow> fill_windows(const Request& request, double most);
 
-/// Fills each window by itself, in parallel, and the whole with them. `fill`: the method.
+/// Fills each window by itself, in parallel, and the whole with them. `fill`: the method, which
+/// reports to its control; of a single window that is the caller's, of several nobody's, as then
+/// the windows are the steps.
 Texture fill_by_windows(const Request& request, const std::vector<FillWindow>& windows,
-                        const std::function<Texture(const Request&)>& fill, const Control& control);
+                        const std::function<Texture(const Request&, const Control&)>& fill,
+                        const Control& control);
 
 }  // namespace gramloom

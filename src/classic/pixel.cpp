@@ -65,7 +65,8 @@ Texture synthesise(const PixelParams& params, const Request& request, const Cont
   const std::vector<FillWindow> windows = fill_windows(request, 0.7);  // what costs is the exemplar
   if (windows.empty()) return synthesise_whole(params, request, control);
   return fill_by_windows(
-      request, windows, [&](const Request& part) { return synthesise_whole(params, part, {}); },
+      request, windows,
+      [&](const Request& part, const Control& own) { return synthesise_whole(params, part, own); },
       control);
 }
 

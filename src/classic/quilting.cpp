@@ -109,7 +109,8 @@ Texture synthesise(const QuiltingParams& params, const Request& request, const C
       fill_windows(request, 4);  // a patch costs as much as where it is sought is large
   if (windows.empty()) return synthesise_whole(params, request, control);
   return fill_by_windows(
-      request, windows, [&](const Request& part) { return synthesise_whole(params, part, {}); },
+      request, windows,
+      [&](const Request& part, const Control& own) { return synthesise_whole(params, part, own); },
       control);
 }
 
