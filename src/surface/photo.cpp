@@ -179,7 +179,9 @@ Image height_guess(const Image& colour, double scale, double detail, bool bright
   }
   if (bright_is_deep) height = -height;
   const float low = quantile_of(height, 0.005), high = quantile_of(height, 0.995);
-  if (!(high > low)) return Image(colour.size(), 1, 0.5f);
+  // Of one brightness; what a blur leaves of it is rounding, more or less of it by the library.
+  const double rounding = 1e-5 * cv::norm(brightness, cv::NORM_INF);
+  if (!(high - low > rounding)) return Image(colour.size(), 1, 0.5f);
   Image result = image_of((height - low) / (high - low));
   for (float& value : result.pixels) value = std::clamp(value, 0.0f, 1.0f);
   return result;
