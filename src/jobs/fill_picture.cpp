@@ -5,7 +5,6 @@
 #include "jobs/loaded_request.h"
 #include "jobs/machine.h"
 #include "jobs/memory.h"
-#include "jobs/plan.h"
 #include "jobs/protected_files.h"
 #include "jobs/results.h"
 
@@ -43,6 +42,22 @@ void check_output_file(const FillWork& work, const Config& config) {
   }
 }
 
+// What the method refuses, or has no memory for.
+void check_possible(const FillWork& work, const Method& method, const RequestSize& request) {
+  std::string refusal;
+  try {
+    const Cost cost = estimate_method(method, request);
+    if (const double free = available_memory(); cost.bytes > free)
+      refusal = fmt::format("needs about {:.1f} GB of memory, {:.1f} GB are free", cost.bytes / 1e9,
+                            free / 1e9);
+  } catch (const ConfigError&) {
+    throw;
+  } catch (const Error& error) {
+    refusal = error.what();
+  }
+  if (!refusal.empty()) throw ConfigError("fill {}: {}", work.picture.string(), refusal);
+}
+
 }  // namespace
 
 std::string config_of(const FillWork& work) {
@@ -68,18 +83,13 @@ std::string config_of(const FillWork& work) {
 std::vector<std::string> fill_picture(const FillWork& work, const Control& control) {
   Config config = parse_config(config_of(work), "fill");
   check_output_file(work, config);
-  const Plan plan = make_plan(config);
-  const PlannedJob& planned = plan.jobs.front();
-  std::string refusal = planned.error;
-  if (refusal.empty()) refusal = memory_refusal(config, plan, planned, available_memory());
-  if (!refusal.empty()) throw ConfigError("fill {}: {}", work.picture.string(), refusal);
-
   LoadedRequest loaded = load_request(config, 0);
   const std::vector<ExemplarFile> files = std::move(loaded.files);
-  const Texture texture = run_method(config.methods.front().method,
-                                     {std::move(loaded.exemplars), std::move(loaded.target),
-                                      Random(static_cast<std::uint64_t>(work.seed))},
-                                     control);
+  const Method& method = config.methods.front().method;
+  const Request request{std::move(loaded.exemplars), std::move(loaded.target),
+                        Random(static_cast<std::uint64_t>(work.seed))};
+  check_possible(work, method, size_of(request));
+  const Texture texture = run_method(method, request, control);
   Metadata metadata = std::move(loaded.metadata);
   metadata[mark] = version();
   std::vector<std::string> notes = std::move(loaded.notes);

@@ -5,6 +5,7 @@
 
 #include "jobs/filling.h"
 #include "jobs/guides.h"
+#include "jobs/memory.h"
 #include "jobs/picture_files.h"
 
 namespace gramloom {
@@ -103,6 +104,15 @@ Image turn_of(const TurnEntry& turn, Size size, const std::string& place) {
   return result;
 }
 
+// What a picture is extended to is in memory before anything else is known.
+void check_canvas(const Config& config) {
+  if (!config.direction.fill) return;
+  const double bytes = 20.0 * config.size.width * config.size.height;
+  if (const double free = available_memory(); bytes > free)
+    throw Error("a picture of {}×{} pixels needs about {:.1f} GB of memory, {:.1f} GB are free",
+                config.size.width, config.size.height, bytes / 1e9, free / 1e9);
+}
+
 void shrink_all(const ExemplarEntry& entry, std::vector<Exemplar>& exemplars) {
   for (Exemplar& exemplar : exemplars) {
     shrink(exemplar, *entry.max_side);
@@ -122,6 +132,7 @@ LoadedRequest load_request(const Config& config, std::optional<std::size_t> numb
   LoadedRequest loaded;
   loaded.target = {config.size, config.tile};
   if (!number) return loaded;
+  check_canvas(config);
   const ExemplarEntry& entry = config.exemplars[*number];
   const Direction& direction = config.direction;
 

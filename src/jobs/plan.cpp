@@ -6,7 +6,6 @@
 
 #include "core/abilities.h"
 #include "jobs/loaded_request.h"
-#include "jobs/memory.h"
 #include "jobs/pattern.h"
 #include "jobs/results.h"
 #include "metrics/scores.h"
@@ -47,20 +46,10 @@ void check_height(const Config& config, const ExemplarEntry& exemplar,
   }
 }
 
-// What a picture is extended to is in memory before anything else is known.
-void check_canvas(const Config& config) {
-  if (!config.direction.fill) return;
-  const double bytes = 20.0 * config.size.width * config.size.height;
-  if (const double free = available_memory(); bytes > free)
-    throw Error("a picture of {}×{} pixels needs about {:.1f} GB of memory, {:.1f} GB are free",
-                config.size.width, config.size.height, bytes / 1e9, free / 1e9);
-}
-
 ExemplarFacts look_at(const Config& config, std::size_t number) {
   ExemplarFacts facts;
   const ExemplarEntry& exemplar = config.exemplars[number];
   try {
-    check_canvas(config);
     LoadedRequest loaded = load_request(config, number);
     facts.files = std::move(loaded.files);
     check_values(exemplar, loaded);
