@@ -96,7 +96,8 @@ std::uint32_t Random::below(std::uint32_t count) {
 }
 
 float Random::normal() {
-  return static_cast<float>(portable::inverse_normal((static_cast<double>(bits()) + 0.5) * 0x1p-32));
+  return static_cast<float>(
+      portable::inverse_normal((static_cast<double>(bits()) + 0.5) * 0x1p-32));
 }
 
 }  // namespace gramloom

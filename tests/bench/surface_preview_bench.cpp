@@ -1,5 +1,5 @@
-// A ball of stones under a lamp, 512 × 512 with 16 samples a pixel, on every core: displaced and lit
-// it is to take 2 seconds at most on two cores.
+// A ball of stones under a lamp, 512 × 512 with 16 samples a pixel, on every core: displaced and
+// lit it is to take 2 seconds at most on two cores.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -29,8 +29,7 @@ void ball(benchmark::State& state) {
   params.displacement = 0.01 * static_cast<double>(state.range(0));
   params.samples = static_cast<int>(state.range(1));
   const PreviewMaterial material = stones(512);
-  for (auto _ : state)
-    benchmark::DoNotOptimize(render_preview(params, {&material, 1}, {}, {}));
+  for (auto _ : state) benchmark::DoNotOptimize(render_preview(params, {&material, 1}, {}, {}));
 }
 BENCHMARK(ball)
     ->ArgNames({"displaced_percent", "samples"})

@@ -53,7 +53,7 @@ TEST_P(NeuralMemory, IsAtMostTheEstimate) {
   NeuralParams params;
   params.iterations = {2, 1};
   change(params);
-  if (params.layout != Layout::noise) params.flow_steps = {1};  // all take as much
+  if (params.layout != Layout::noise) params.flow_steps = {1};          // all take as much
   bytes_of(params, grain({64, 64}, channels), {{64, 64}, Tile::both});  // the libraries start
   const double estimated = estimate(params, {{{exemplar, channels}}, target, Tile::both}).bytes;
   const double found = bytes_of(params, grain(exemplar, channels), {target, Tile::both});
