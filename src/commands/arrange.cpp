@@ -36,7 +36,7 @@ Command add_arrange(CLI::App& program) {
   command
       ->add_option("pictures", arguments->pictures,
                    "a picture for each of the exemplar, as large as that, in their order; of a "
-                   "filled picture this one last")
+                   "picture filled of others, that one last")
       ->required();
   command->add_option("--output", arguments->output, "the result (.png, .tif, .exr, .jpg …)")
       ->required()

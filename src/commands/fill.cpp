@@ -4,10 +4,10 @@
 #include "commands/command.h"
 #include "commands/config_options.h"
 #include "commands/field_options.h"
+#include "commands/with_progress.h"
 #include "core/error.h"
 #include "core/threads.h"
 #include "jobs/fill_picture.h"
-#include "jobs/interruption.h"
 #include "jobs/progress_bar.h"
 
 namespace gramloom {
@@ -34,22 +34,12 @@ ExitCode fill(const FillArguments& arguments) {
   work.from.assign(arguments.from.begin(), arguments.from.end());
   if (arguments.print_config) return print(config_of(work));
   if (work.output.empty()) throw ConfigError("fill: --output or --print-config is needed");
-  watch_signals();
-  ProgressBar bar(progress_style(arguments.quiet));
-  bar.start(work.output.filename().string(), 1, 1);
-  Control control;
-  control.progress = [&](const Progress& progress) {
-    bar.update(progress);
-    return !stop_asked();
-  };
-  try {
-    for (const std::string& note : fill_picture(work, control))
-      print_message(fmt::format("note: {}", note));
-    return print(arguments.output + "\n");
-  } catch (const Interrupted&) {
-    bar.complaint("gramloom: interrupted; nothing is written");
-    return interrupted;
-  }
+  return with_progress(work.output.filename().string(), arguments.quiet,
+                       [&](const Control& control, ProgressBar&) {
+                         for (const std::string& note : fill_picture(work, control))
+                           print_message(fmt::format("note: {}", note));
+                         return arguments.output + "\n";
+                       });
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include "commands/config_options.h"
 #include "commands/field_options.h"
 #include "commands/map_files.h"
+#include "commands/with_progress.h"
 #include "core/error.h"
 #include "core/threads.h"
-#include "jobs/interruption.h"
 #include "jobs/preview_files.h"
 #include "jobs/progress_bar.h"
 
@@ -27,22 +27,11 @@ ExitCode preview_pictures(const PreviewArguments& arguments) {
   set_thread_count(arguments.threads);
   PreviewWork work = arguments.work;
   work.maps = named_maps(arguments.maps);
-  watch_signals();
-  ProgressBar bar(progress_style(arguments.quiet));
-  bar.start("preview", 1, 1);
-  Control control;
-  control.progress = [&](const Progress& progress) {
-    bar.update(progress);
-    return !stop_asked();
-  };
-  try {
+  return with_progress("preview", arguments.quiet, [&](const Control& control, ProgressBar& bar) {
     const PreviewFile made = make_preview(work, arguments.output, control);
     for (const std::string& line : made.used) bar.message(line);
-    return print(arguments.output + "\n");
-  } catch (const Interrupted&) {
-    bar.complaint("gramloom: interrupted; nothing is written");
-    return interrupted;
-  }
+    return arguments.output + "\n";
+  });
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 #include "commands/config_options.h"
 #include "commands/field_options.h"
 #include "commands/map_files.h"
+#include "commands/with_progress.h"
 #include "core/error.h"
 #include "core/threads.h"
-#include "jobs/interruption.h"
 #include "jobs/progress_bar.h"
 #include "jobs/tile_picture.h"
 
@@ -54,24 +54,15 @@ ExitCode tile(const TileArguments& arguments) {
   work.size = size_of(arguments.size);
   work.maps = named_maps(arguments.maps);
   if (arguments.max_side > 0) work.max_side = arguments.max_side;
-  watch_signals();
-  ProgressBar bar(progress_style(arguments.quiet));
-  bar.start(work.output.filename().string(), 1, 1);
-  Control control;
-  control.progress = [&](const Progress& progress) {
-    bar.update(progress);
-    return !stop_asked();
-  };
-  try {
-    const TiledFiles tiled = tile_picture(work, control);
-    for (const std::string& note : tiled.notes) print_message(fmt::format("note: {}", note));
-    std::string text;
-    for (const auto& file : tiled.files) text += file.string() + "\n";
-    return print(text);
-  } catch (const Interrupted&) {
-    bar.complaint("gramloom: interrupted; nothing is written");
-    return interrupted;
-  }
+  return with_progress(work.output.filename().string(), arguments.quiet,
+                       [&](const Control& control, ProgressBar&) {
+                         const TiledFiles tiled = tile_picture(work, control);
+                         for (const std::string& note : tiled.notes)
+                           print_message(fmt::format("note: {}", note));
+                         std::string text;
+                         for (const auto& file : tiled.files) text += file.string() + "\n";
+                         return text;
+                       });
 }
 
 }  // namespace

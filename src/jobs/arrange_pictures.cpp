@@ -43,7 +43,7 @@ void check_pictures(const ArrangeWork& work, const Arrangement& arrangement,
     throw ConfigError("arrange: {} {} given, and the texture of {} was made of {}: {}",
                       pictures.size(), pictures.size() == 1 ? "picture is" : "pictures are",
                       work.coordinates.string(), arrangement.pictures.size(),
-                      "one for each, in their order; for a filled picture this one last");
+                      "one for each, in their order; of a picture filled of others, that one last");
   if (pictures.size() > arrangement.pictures.size())
     throw ConfigError("arrange: {} pictures are given, and the texture of {} was made of {}",
                       pictures.size(), work.coordinates.string(), arrangement.pictures.size());

@@ -1,7 +1,6 @@
 #include "jobs/methods.h"
 
-#include <algorithm>
-
+#include "classic/known_pixels.h"
 #include "core/variants.h"
 #include "jobs/unit_normals.h"
 #include "signal/turned.h"
@@ -17,15 +16,6 @@ void refuse_lacks(const Method& method, const RequestSize& request) {
   const auto others = methods_with(lack->ability);
   if (others.empty()) throw Error("{}; no method can yet", lack->refusal);
   throw Error("{}; methods that can: {}", lack->refusal, fmt::join(others, ", "));
-}
-
-// Bit for bit, whatever a method computes with.
-void keep_known(Image& texture, const Target& target) {
-  if (target.mask.empty()) return;
-  for (int y = 0; y < texture.height; ++y)
-    for (int x = 0; x < texture.width; ++x)
-      if (*target.mask.at(x, y) <= 0.5f)
-        std::copy_n(target.known.at(x, y), texture.channels, texture.at(x, y));
 }
 
 }  // namespace
@@ -57,7 +47,7 @@ Texture run_method(const Method& method, const Request& request, const Control& 
       std::visit([&](const auto& params) { return synthesise(params, asked, control); }, method);
   keep_normals_unit(texture, asked.exemplars);
   if (turned) turned->name_sources(texture.source);
-  keep_known(texture.image, request.target);
+  keep_known(texture.image, request.target);  // bit for bit, whatever a method computes with
   return texture;
 }
 

@@ -5,25 +5,15 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.h"
+#include "signal/channel_groups.h"
 
 namespace gramloom {
 namespace {
 
-/// All channels of `image` in one filter; OpenCV's filters promise no more than four at a time.
 Image resize_by(const Image& image, Size size, int interpolation) {
-  constexpr int group = 4;
-  Image result(size, image.channels);
-  for (int first = 0; first < image.channels; first += group) {
-    const int count = std::min(group, image.channels - first);
-    Image part = extract_channels(image, first, count);
-    const cv::Mat from(part.height, part.width, CV_32FC(count), part.pixels.data());
-    cv::Mat to;
+  return filtered_in_groups(image, size, [&](const cv::Mat& from, cv::Mat& to) {
     cv::resize(from, to, {size.width, size.height}, 0, 0, interpolation);
-    for (int y = 0; y < size.height; ++y)
-      for (int x = 0; x < size.width; ++x)
-        std::copy_n(to.ptr<float>(y) + x * count, count, result.at(x, y) + first);
-  }
-  return result;
+  });
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "signal/channel_groups.h"
 #include "signal/resize.h"
 #include "signal/united.h"
 
@@ -81,22 +82,11 @@ Steps steps_for(const Request& request) {
   return steps;
 }
 
-/// Channels in groups, as OpenCV's filters promise no more than four at a time.
 Image warped(const Image& image, Size size, const cv::Matx23d& back, int interpolation) {
-  constexpr int group = 4;
-  Image result(size, image.channels);
-  for (int first = 0; first < image.channels; first += group) {
-    const int count = std::min(group, image.channels - first);
-    Image part = extract_channels(image, first, count);
-    const cv::Mat from(part.height, part.width, CV_32FC(count), part.pixels.data());
-    cv::Mat to;
+  return filtered_in_groups(image, size, [&](const cv::Mat& from, cv::Mat& to) {
     cv::warpAffine(from, to, back, {size.width, size.height}, interpolation | cv::WARP_INVERSE_MAP,
                    cv::BORDER_REPLICATE);
-    for (int y = 0; y < size.height; ++y)
-      for (int x = 0; x < size.width; ++x)
-        std::copy_n(to.ptr<float>(y) + x * count, count, result.at(x, y) + first);
-  }
-  return result;
+  });
 }
 
 /// What is made smaller is averaged first, or fine things would flicker.
