@@ -15,11 +15,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* mark = "gramloom:kept";
 
-// "exemplar", "exemplar_picture2", …
-std::string stem_of(std::size_t picture) {
-  return picture == 0 ? "exemplar" : fmt::format("exemplar_picture{}", picture + 1);
-}
-
 void write_picture(const fs::path& folder, const std::string& name, const Image& image,
                    const ExemplarFile& file) {
   const OutputFormat format = output_format(Config(), file.encoding, file.channels);
@@ -91,7 +86,7 @@ void write_exemplar(const fs::path& folder, const Request& request,
   for (std::size_t i = 0; i < request.exemplars.size(); ++i) {
     const Exemplar& exemplar = request.exemplars[i];
     const Texture parts = split_layers({exemplar.image}, files);
-    const std::string stem = stem_of(i);
+    const std::string stem = kept_stem(i);
     for (const ExemplarFile& file : files)
       write_picture(folder, file.map.empty() ? stem : fmt::format("{}_{}", stem, file.map),
                     file.map.empty() ? parts.image : parts.maps.at(file.map), file);
@@ -109,7 +104,7 @@ std::vector<std::string> kept_files(const ExemplarEntry& exemplar) {
   std::vector<std::string> names;
   const std::size_t pictures = 1 + exemplar.more.size();
   for (std::size_t i = 0; i < pictures; ++i) {
-    const std::string stem = stem_of(i);
+    const std::string stem = kept_stem(i);
     names.push_back(stem);
     for (const auto& [map, file] : exemplar.maps) names.push_back(stem + "_" + map);
   }
@@ -120,7 +115,7 @@ std::vector<std::string> kept_directions(const ExemplarEntry& exemplar) {
   std::vector<std::string> names{"target_guide", "target_weights", "target_mask"};
   const std::size_t pictures = 1 + exemplar.more.size();
   for (std::size_t i = 0; i < pictures; ++i)
-    for (const char* what : {"_usable", "_guide"}) names.push_back(stem_of(i) + what);
+    for (const char* what : {"_usable", "_guide"}) names.push_back(kept_stem(i) + what);
   return names;
 }
 

@@ -81,12 +81,13 @@ void add_directing_pictures(const RunOnDisk& run, const std::string& name, Shown
       source.shown["map_pictures"].push_back({{"label", label}, {"file", path}});
   };
   const std::size_t pictures = 1 + source.shown["more"].size();
-  for (std::size_t i = 1; i <= pictures; ++i) {
-    const std::string which = i > 1 ? fmt::format("picture {}", i) : "";
-    const std::string stem = i > 1 ? fmt::format("exemplar_picture{}", i) : "exemplar";
-    if (i > 1) add(which, stem + ".png");
-    add(which.empty() ? "what may be used" : which + ": what may be used", stem + "_usable.png");
-    add(which.empty() ? "guide" : which + ": guide", stem + "_guide.png");
+  for (std::size_t i = 0; i < pictures; ++i) {
+    const std::string which = i > 0 ? fmt::format("picture {}", i + 1) : "";
+    const std::string before = i > 0 ? which + ": " : "";
+    const std::string stem = kept_stem(i);
+    if (i > 0) add(which, stem + ".png");
+    add(before + "what may be used", stem + "_usable.png");
+    add(before + "guide", stem + "_guide.png");
   }
   add("the texture's guide", "target_guide.png");
   add("the texture's weights", "target_weights.png");

@@ -39,6 +39,10 @@ std::string kept_exemplar(const fs::path& output, const std::string& exemplar,
   return "";
 }
 
+std::string kept_stem(std::size_t picture) {
+  return picture == 0 ? "exemplar" : fmt::format("exemplar_picture{}", picture + 1);
+}
+
 void create_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);

@@ -26,6 +26,10 @@ JobFiles job_files(const std::filesystem::path& output, const std::string& job);
 std::string kept_exemplar(const std::filesystem::path& output, const std::string& exemplar,
                           const std::string& map = "");
 
+/// What the files of an exemplar's picture begin with, counted from 0: "exemplar",
+/// "exemplar_picture2", ….
+std::string kept_stem(std::size_t picture);
+
 /// Makes a folder and those above it. Throws Error.
 void create_folder(const std::filesystem::path& folder);
 
