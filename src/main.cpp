@@ -31,6 +31,7 @@ ExitCode dispatch(int argc, char** argv) {
       "Exit code: 0 all done; 1 a job failed or got worse; 2 bad usage or config; 130 "
       "interrupted.");
   const std::vector<Command> commands{add_run(app, {argv, argv + argc}),
+                                      add_train(app, {argv, argv + argc}),
                                       add_check(app),
                                       add_list(app),
                                       add_score(app),

@@ -7,6 +7,7 @@
 #include "jobs/config.h"
 #include "jobs/input_files.h"
 #include "jobs/listing.h"
+#include "jobs/model_entries.h"
 #include "jobs/output_guard.h"
 #include "jobs/plan.h"
 #include "jobs/runner.h"
@@ -29,6 +30,7 @@ std::string output_refusal(const Config& config, const Plan& plan) {
 
 ExitCode check_config(const ConfigOptions& options) {
   const Config config = read_config(options.config, options.set);
+  refuse_models(config, "check");
   const Plan plan = make_plan(config, options.only);
   return print(job_table(config, plan) + output_refusal(config, plan));
 }

@@ -1,11 +1,10 @@
-#include <malloc.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 
 #include "commands/command.h"
 #include "commands/config_options.h"
+#include "commands/end_run.h"
 #include "core/error.h"
 #include "core/spinning.h"
 #include "core/threads.h"
@@ -14,10 +13,10 @@
 #include "jobs/config.h"
 #include "jobs/input_files.h"
 #include "jobs/interruption.h"
+#include "jobs/model_entries.h"
 #include "jobs/output_guard.h"
 #include "jobs/progress_bar.h"
 #include "jobs/runner.h"
-#include "report/page.h"
 #include "runs/format.h"
 
 namespace gramloom {
@@ -33,13 +32,6 @@ struct RunArguments {
   bool quiet = false;
   std::vector<std::string> words;  // the command line itself
 };
-
-// Freed buffers stay with the process: large ones come and go at each step, and faulting them in
-// again costs up to half of the time.
-void keep_large_buffers() {
-  mallopt(M_MMAP_THRESHOLD, 1 << 30);
-  mallopt(M_TRIM_THRESHOLD, 2147483647);
-}
 
 // What --baseline names, read and checked before any work.
 std::optional<Baseline> earlier_run(const RunArguments& arguments, const RunOptions& options) {
@@ -70,18 +62,6 @@ bool got_worse(const Baseline& before, const Config& config, const RunOptions& o
   return count_worse(changes) > 0;
 }
 
-// Writes the page of a run; the results are there whatever becomes of it.
-bool show_run(const std::filesystem::path& folder, ProgressBar& bar) {
-  const NothingToKeep scope;
-  try {
-    bar.message(fmt::format("page: {}", write_page(folder).string()));
-    return true;
-  } catch (const std::exception& error) {
-    bar.complaint(fmt::format("gramloom: no page: {}", first_line(error.what())));
-    return false;
-  }
-}
-
 // Whether the libraries of neural methods, which bring OpenMP's threads, will be at work.
 bool has_neural_jobs(const Config& config) {
   return std::ranges::any_of(config.methods, [](const MethodEntry& method) {
@@ -93,6 +73,7 @@ ExitCode run_config(const RunArguments& arguments) {
   keep_large_buffers();
   set_thread_count(arguments.threads);
   const Config config = read_config(arguments.config.config, arguments.config.set);
+  refuse_models(config, "run");
   if (has_neural_jobs(config) && std::filesystem::is_regular_file(config.file))
     bound_spinning(arguments.words);
   watch_signals();
@@ -108,20 +89,10 @@ ExitCode run_config(const RunArguments& arguments) {
   if (before) options.inputs = input_files(*before);
   ProgressBar bar(progress_style(arguments.quiet));
   const RunSummary summary = run(config, options, bar);
-  const bool shown = show_run(options.output, bar);
-  if (summary.interrupted + summary.left > 0) {
-    bar.complaint(fmt::format(
-        "gramloom: interrupted, {} of {} jobs are left; --resume goes on",
-        summary.interrupted + summary.left,
-        summary.done + summary.skipped + summary.failed + summary.interrupted + summary.left));
-    return interrupted;
-  }
-  if (summary.unscored) {
-    bar.complaint("gramloom: interrupted, not all textures are scored; --resume goes on");
-    return interrupted;
-  }
+  const ExitCode ended = end_run(options.output, summary, bar);
+  if (ended == interrupted) return interrupted;
   const bool worse = before && got_worse(*before, config, options, arguments.quiet);
-  return worse || !shown || summary.failed > 0 ? job_failed : all_done;
+  return worse ? job_failed : ended;
 }
 
 }  // namespace

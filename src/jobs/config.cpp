@@ -7,6 +7,7 @@
 #include "io/toml_reader.h"
 #include "jobs/exemplar_entries.h"
 #include "jobs/method_reader.h"
+#include "jobs/model_entries.h"
 #include "jobs/names.h"
 #include "jobs/overrides.h"
 #include "jobs/read_direction.h"
@@ -94,10 +95,17 @@ void check_seeds(const Config& config, const toml::table& table) {
 // What only shows when all is read.
 void check_whole(const Config& config, const toml::table& table) {
   check_seeds(config, table);
-  if (config.methods.empty()) throw ConfigError("{}: there is no [[method]]", config.file.string());
+  if (config.methods.empty() && config.models.empty())
+    throw ConfigError("{}: there is no [[method]]", config.file.string());
   for (const auto& method : config.methods)
     if (needs_exemplar(method.method) && config.exemplars.empty())
       throw ConfigError("{}: method '{}' needs an [[exemplar]]", method.place, method.name);
+  for (const auto& method : config.methods)
+    if (const std::string name = compared_with(method.method);
+        !name.empty() && std::none_of(config.exemplars.begin(), config.exemplars.end(),
+                                      [&](const auto& exemplar) { return exemplar.name == name; }))
+      throw ConfigError("{}: method '{}': no exemplar is called '{}'", method.place, method.name,
+                        name);
   const bool procedural =
       std::any_of(config.methods.begin(), config.methods.end(),
                   [](const auto& method) { return !needs_exemplar(method.method); });
@@ -114,7 +122,7 @@ Config parse_config(const std::string& text, const fs::path& file,
   toml::table table = parse_toml(text, file.string());
   for (const auto& option : overrides) apply_override(table, option);
   std::vector<std::string> keys = config_keys();
-  keys.insert(keys.end(), {"exemplar", "method", "baseline", "surface", "preview"});
+  keys.insert(keys.end(), {"exemplar", "method", "model", "baseline", "surface", "preview"});
   for_each_direction(Direction(), [&]<class Entry>(const std::optional<Entry>&) {
     keys.emplace_back(Entry::section);
   });
@@ -127,6 +135,7 @@ Config parse_config(const std::string& text, const fs::path& file,
   read_fields(config, table);
   config.exemplars = read_exemplars(table);
   config.methods = read_methods(table);
+  config.models = read_models(table, config);
   config.direction = read_direction(table);
   follow_direction(config, table);
   config.baseline = read_section<BaselineLimits>(table, "baseline");

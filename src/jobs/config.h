@@ -12,6 +12,7 @@
 #include "jobs/direction.h"
 #include "jobs/map_file.h"
 #include "jobs/methods.h"
+#include "jobs/recipes.h"
 #include "runs/baseline_limits.h"
 #include "surface/maps.h"
 #include "surface/preview_params.h"
@@ -52,6 +53,7 @@ struct ExemplarEntry : ExemplarPicture {
   std::string name;                   // fit for a folder's name
   std::vector<ExemplarPicture> more;  // of `images`, all after the first
   std::optional<int> max_side;
+  std::string licence;     // under which it may be used: a model that learns it says so
   bool is_filled = false;  // the picture that [fill] fills, without what is to be made
   std::string place;       // where the config says so, for messages
 
@@ -59,8 +61,12 @@ struct ExemplarEntry : ExemplarPicture {
     using E = ExemplarEntry;
     return std::tuple_cat(
         ExemplarPicture::fields(),
-        std::tuple{Field{
-            "max_side", &E::max_side, "scale the longer side down to this", "pixels", {1, 65536}}});
+        std::tuple{Field{"max_side",
+                         &E::max_side,
+                         "scale the longer side down to this",
+                         "pixels",
+                         {1, 65536}},
+                   Field{"licence", &E::licence, "under which it may be used, for models of it"}});
   }
 };
 
@@ -71,6 +77,13 @@ std::vector<ExemplarPicture> pictures_of(const ExemplarEntry& exemplar);
 struct MethodEntry {
   std::string name;  // fit for a folder's name
   Method method;
+  std::string place;
+};
+
+/// A model to train: a [[model]] of the config.
+struct ModelEntry {
+  std::string name;
+  ModelRecipe recipe;
   std::string place;
 };
 
@@ -90,6 +103,7 @@ struct Config {
   bool coordinates = false;
   std::vector<ExemplarEntry> exemplars;
   std::vector<MethodEntry> methods;
+  std::vector<ModelEntry> models;        // that `gramloom train` trains
   Direction direction;                   // its [guide], [mix], [turn] and [fill]
   BaselineLimits baseline;               // its [baseline]
   SurfaceParams surface;                 // its [surface]: maps of every result that has a height

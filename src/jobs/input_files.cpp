@@ -11,25 +11,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path file_of(const fs::path& file) { return file; }
-
-// A name that no network has is found elsewhere.
-fs::path file_of(const FileOrName& network) {
+// What the method looks up by a name: its network or its model. One that there is not is found
+// elsewhere.
+template <class Params>
+fs::path looked_up(const Params& params) {
   try {
-    return network.empty() ? fs::path() : find_network(network);
+    if constexpr (HasNetwork<Params>) return network_file(params);
+    if constexpr (HasModel<Params>) return model_file(params);
   } catch (const Error&) {
-    return {};
   }
+  return {};
 }
 
 void add_files_of(const Method& method, std::vector<InputFile>& files) {
   std::visit(
       [&](const auto& params) {
+        const auto add = [&](const fs::path& file) {
+          if (!file.empty()) files.push_back({file, "the config reads"});
+        };
         for_each_parameter(params, [&]<class T>(const auto&, const T& value) {
-          if constexpr (std::is_base_of_v<fs::path, T>)
-            if (const fs::path file = file_of(value); !file.empty())
-              files.push_back({file, "the config reads"});
+          if constexpr (std::is_same_v<fs::path, T>) add(value);
         });
+        add(looked_up(params));
       },
       method);
 }

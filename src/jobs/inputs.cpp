@@ -88,8 +88,9 @@ Named<std::string> method_hashes(const Method& method, FileHashes& hashes) {
         for_each_parameter(params, [&]<class T>(const auto& field, const T& value) {
           if constexpr (std::is_same_v<T, fs::path>) add(field.name, value);
         });
-        if constexpr (HasNetwork<Params>) try {
-            add("network", network_file(params));
+        if constexpr (HasNetwork<Params> || HasModel<Params>) try {
+            if constexpr (HasNetwork<Params>) add("network", network_file(params));
+            if constexpr (HasModel<Params>) add("model", model_file(params));
           } catch (const Error&) {
             // There is none of that name any more; whoever reads it says so.
           }

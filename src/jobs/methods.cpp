@@ -18,6 +18,30 @@ void refuse_lacks(const Method& method, const RequestSize& request) {
   throw Error("{}; methods that can: {}", lack->refusal, fmt::join(others, ", "));
 }
 
+// A texture with the maps of an exemplar of these layers joined to its image, as methods of
+// exemplars return it.
+Texture joined_as(Texture texture, const std::vector<Layer>& layers) {
+  std::vector<const Image*> parts{&texture.image};
+  int channels = texture.image.channels;
+  for (const Layer& layer : layers) {
+    if (layer.name.empty()) continue;
+    const auto map = texture.maps.find(layer.name);
+    if (map == texture.maps.end())
+      throw Error("the exemplar has a map '{}' that the model has not", layer.name);
+    if (parts.back() == &map->second) continue;  // a map's alpha
+    parts.push_back(&map->second);
+    channels += layer.count;
+  }
+  if (parts.size() == 1) return texture;
+  Texture joined;
+  joined.image = Image(texture.image.size(), channels);
+  float* to = joined.image.pixels.data();
+  for (int y = 0; y < joined.image.height; ++y)
+    for (int x = 0; x < joined.image.width; ++x)
+      for (const Image* part : parts) to = std::copy_n(part->at(x, y), part->channels, to);
+  return joined;
+}
+
 }  // namespace
 
 std::string_view kind_of(const Method& method) {
@@ -38,7 +62,20 @@ std::vector<std::string_view> methods_with(Ability ability) {
   return kinds;
 }
 
+std::string compared_with(const Method& method) {
+  return std::visit(
+      []<class Params>(const Params& params) -> std::string {
+        if constexpr (HasComparison<Params>) return params.exemplar;
+        return "";
+      },
+      method);
+}
+
 Texture run_method(const Method& method, const Request& request, const Control& control) {
+  if (!request.exemplars.empty() && !compared_with(method).empty()) {
+    const Request without{{}, request.target, request.random};
+    return joined_as(run_method(method, without, control), request.exemplars.front().layers);
+  }
   refuse_lacks(method, size_of(request));
   std::optional<Turned> turned;
   if (!request.target.turn.empty()) turned.emplace(request);
@@ -52,6 +89,11 @@ Texture run_method(const Method& method, const Request& request, const Control& 
 }
 
 Cost estimate_method(const Method& method, const RequestSize& request) {
+  if (!request.exemplars.empty() && !compared_with(method).empty()) {
+    RequestSize without = request;
+    without.exemplars.clear();
+    return estimate_method(method, without);
+  }
   refuse_lacks(method, request);
   const RequestSize asked = request.turn ? size_of_turned(request) : request;
   return std::visit([&](const auto& params) { return estimate(params, asked); }, method);

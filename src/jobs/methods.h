@@ -16,6 +16,7 @@
 #include "core/fields.h"
 #include "core/progress.h"
 #include "core/request.h"
+#include "learnt/generator.h"
 #include "neural/synthesis.h"
 #include "procedural/texture.h"
 #include "surface/tiling.h"
@@ -24,9 +25,9 @@ namespace gramloom {
 
 /// Every method that a config can name: the one list of them. A method is one of these structs and
 /// the functions synthesise and estimate beside it.
-using Method =
-    std::variant<NeuralParams, QuiltingParams, PatchmatchParams, PixelParams, PyramidParams,
-                 PhaseParams, MarkovParams, HistogramParams, TilingParams, ProceduralParams>;
+using Method = std::variant<NeuralParams, QuiltingParams, PatchmatchParams, PixelParams,
+                            PyramidParams, PhaseParams, MarkovParams, HistogramParams, TilingParams,
+                            GeneratorParams, ProceduralParams>;
 
 /// A method that holds one of several sub-methods, chosen by their `name` under the key
 /// `variant_key`, in its member `texture`.
@@ -45,6 +46,21 @@ concept HasPresets = requires(const Params& params) {
 template <class Params>
 concept HasNetwork = requires(const Params& params) {
   network_file(params);
+};
+
+/// A method that makes its textures without an exemplar, and may name one of the config's that they
+/// are scored against.
+template <class Params>
+concept HasComparison = requires(const Params& params) {
+  params.exemplar;
+};
+/// The name of that exemplar; "": none.
+std::string compared_with(const Method& method);
+
+/// A method that uses a trained model, a file of its own or one that it looks up by its name.
+template <class Params>
+concept HasModel = requires(const Params& params) {
+  model_file(params);
 };
 
 std::string_view kind_of(const Method& method);

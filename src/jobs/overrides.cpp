@@ -125,6 +125,7 @@ void apply_override(toml::table& config, const std::string& option) {
     assign(config, key, value, option);
   else if (!assign_in_section(config, "method", option) &&
            !assign_in_section(config, "exemplar", option) &&
+           !assign_in_section(config, "model", option) &&
            !assign_in_table(config, "baseline", key, value, option) &&
            !assign_in_table(config, "surface", key, value, option) &&
            !assign_in_table(config, "preview", key, value, option) &&

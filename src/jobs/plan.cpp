@@ -148,16 +148,22 @@ std::vector<PlannedDiversity> plan_diversities(const Config& config, const Plan&
   return diversities;
 }
 
+// Whether the method has jobs of this exemplar; of none: without one.
+bool takes(const Config& config, const Method& method, std::optional<std::size_t> exemplar) {
+  const std::string compared = compared_with(method);
+  if (compared.empty()) return needs_exemplar(method) == exemplar.has_value();
+  return exemplar && config.exemplars[*exemplar].name == compared;
+}
+
 std::vector<Job> all_jobs(const Config& config) {
   std::vector<Job> jobs;
-  const auto add = [&](std::optional<std::size_t> exemplar, bool with_exemplar) {
+  const auto add = [&](std::optional<std::size_t> exemplar) {
     for (std::size_t method = 0; method < config.methods.size(); ++method)
-      if (needs_exemplar(config.methods[method].method) == with_exemplar)
+      if (takes(config, config.methods[method].method, exemplar))
         for (const int seed : config.seeds) jobs.push_back({exemplar, method, seed});
   };
-  add(std::nullopt, false);
-  for (std::size_t exemplar = 0; exemplar < config.exemplars.size(); ++exemplar)
-    add(exemplar, true);
+  add(std::nullopt);
+  for (std::size_t exemplar = 0; exemplar < config.exemplars.size(); ++exemplar) add(exemplar);
   return jobs;
 }
 

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <tuple>
 
-#include "neural/network/onednn.h"
 #include "neural/network/plane_gradient.h"
+#include "signal/onednn.h"
 
 namespace gramloom::neural {
 

@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <set>
 
+#include "io/models_folder.h"
 #include "io/text_file.h"
 #include "io/toml_reader.h"
-#include "neural/models_folder.h"
 #include "neural/params.h"
 
 namespace gramloom {
@@ -78,36 +78,11 @@ std::vector<std::string> layer_names(const NetworkDescription& network) {
   return names;
 }
 
-// The folder of shipped networks: named by the user, beside the installed program, or the sources'.
-fs::path models_folder() {
-  if (const char* named = std::getenv("GRAMLOOM_MODELS")) return named;
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path installed = program.parent_path().parent_path() / "share/gramloom/models";
-  return fs::is_directory(installed, error) ? installed : fs::path(source_models_folder);
-}
-
 }  // namespace
 
-std::vector<fs::path> known_networks() {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(models_folder(), error))
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
-}
+std::vector<fs::path> known_networks() { return models_in_folder(".toml"); }
 
-fs::path find_network(const FileOrName& network) {
-  if (!network.is_name()) return network;
-  std::vector<std::string> names;
-  for (const auto& file : known_networks()) {
-    if (file.stem() == network) return file;
-    names.push_back(file.stem().string());
-  }
-  throw ConfigError("unknown network '{}' (in {} are {})", network.string(),
-                    models_folder().string(), fmt::join(names, ", "));
-}
+fs::path find_network(const FileOrName& network) { return find_model(network, ".toml", "network"); }
 
 fs::path network_file(const NeuralParams& params) {
   return needs_network(params) ? find_network(params.network) : fs::path();

@@ -2,7 +2,7 @@
 
 #include <oneapi/dnnl/dnnl.hpp>
 
-namespace gramloom::neural {
+namespace gramloom {
 
 /// What differs between oneDNN 2 (Debian 12) and 3 (Debian 13): how primitives are described.
 
@@ -11,11 +11,12 @@ struct ConvolutionShape {
   dnnl::memory::dims stride, dilation, padding;
 };
 
-inline void append_relu(dnnl::post_ops& operations) {
+/// max(x, slope · x).
+inline void append_relu(dnnl::post_ops& operations, float slope = 0) {
 #if DNNL_VERSION_MAJOR >= 3
-  operations.append_eltwise(dnnl::algorithm::eltwise_relu, 0.0f, 0.0f);
+  operations.append_eltwise(dnnl::algorithm::eltwise_relu, slope, 0.0f);
 #else
-  operations.append_eltwise(1.0f, dnnl::algorithm::eltwise_relu, 0.0f, 0.0f);
+  operations.append_eltwise(1.0f, dnnl::algorithm::eltwise_relu, slope, 0.0f);
 #endif
 }
 
@@ -49,4 +50,4 @@ inline dnnl::convolution_backward_data::primitive_desc describe_backward(
 #endif
 }
 
-}  // namespace gramloom::neural
+}  // namespace gramloom

@@ -1,0 +1,48 @@
+#include "commands/end_run.h"
+
+#include <malloc.h>
+
+#include "io/text_file.h"
+#include "jobs/interruption.h"
+#include "report/page.h"
+
+namespace gramloom {
+
+namespace {
+
+// The results are there whatever becomes of the page.
+bool show_run(const std::filesystem::path& folder, ProgressBar& bar) {
+  const NothingToKeep scope;
+  try {
+    bar.message(fmt::format("page: {}", write_page(folder).string()));
+    return true;
+  } catch (const std::exception& error) {
+    bar.complaint(fmt::format("gramloom: no page: {}", first_line(error.what())));
+    return false;
+  }
+}
+
+}  // namespace
+
+void keep_large_buffers() {
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, 2147483647);
+}
+
+ExitCode end_run(const std::filesystem::path& output, const RunSummary& summary, ProgressBar& bar) {
+  const bool shown = show_run(output, bar);
+  if (summary.interrupted + summary.left > 0) {
+    bar.complaint(fmt::format(
+        "gramloom: interrupted, {} of {} jobs are left; --resume goes on",
+        summary.interrupted + summary.left,
+        summary.done + summary.skipped + summary.failed + summary.interrupted + summary.left));
+    return interrupted;
+  }
+  if (summary.unscored) {
+    bar.complaint("gramloom: interrupted, not all textures are scored; --resume goes on");
+    return interrupted;
+  }
+  return !shown || summary.failed > 0 ? job_failed : all_done;
+}
+
+}  // namespace gramloom

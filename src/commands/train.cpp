@@ -1,0 +1,82 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "commands/command.h"
+#include "commands/config_options.h"
+#include "commands/end_run.h"
+#include "core/error.h"
+#include "core/spinning.h"
+#include "core/threads.h"
+#include "jobs/config.h"
+#include "jobs/interruption.h"
+#include "jobs/output_guard.h"
+#include "jobs/progress_bar.h"
+#include "jobs/runner.h"
+#include "jobs/training.h"
+
+namespace gramloom {
+
+namespace {
+
+struct TrainArguments {
+  ConfigOptions config;
+  std::string output;
+  int threads = 0;
+  bool resume = false;
+  bool quiet = false;
+  std::vector<std::string> words;  // the command line itself
+};
+
+ExitCode train(const TrainArguments& arguments) {
+  keep_large_buffers();
+  set_thread_count(arguments.threads);
+  Config config = read_config(arguments.config.config, arguments.config.set);
+  if (config.models.empty())
+    throw ConfigError("{}: there is no [[model]] to train", config.file.string());
+  if (std::filesystem::is_regular_file(config.file)) bound_spinning(arguments.words);
+  watch_signals();
+  RunOptions options;
+  options.is_default_output = arguments.output.empty();
+  options.output =
+      options.is_default_output ? default_output(config) : std::filesystem::path(arguments.output);
+  options.resume = arguments.resume;
+  options.stop = stop_asked;
+  options.command = arguments.words;
+  ProgressBar bar(progress_style(arguments.quiet));
+  const Trained trained = train_models(config, options, bar);
+  if (trained.interrupted) {
+    bar.complaint("gramloom: interrupted; --resume goes on");
+    return interrupted;
+  }
+  // Then their textures, with those of the config's methods beside them, as any run.
+  config.models.clear();
+  config.methods.insert(config.methods.end(), trained.methods.begin(), trained.methods.end());
+  if (config.methods.empty()) return job_failed;
+  const ExitCode ended = end_run(options.output, run(config, options, bar), bar);
+  return ended == all_done && trained.failed > 0 ? job_failed : ended;
+}
+
+}  // namespace
+
+Command add_train(CLI::App& program, const std::vector<std::string>& words) {
+  const auto arguments = std::make_shared<TrainArguments>();
+  arguments->words = words;
+  CLI::App* command = program.add_subcommand(
+      "train",
+      "Train the models of a config, each once; then make and score textures by them, and by the "
+      "config's methods, as a run");
+  command->add_option("config", arguments->config.config, "the config file (TOML)")->required();
+  add_repeated(*command, "--set", arguments->config.set,
+               "put a value in place of the config's: key=value, model.NAME.key=value …; can be "
+               "repeated",
+               "KEY=VALUE");
+  command->add_option("--output", arguments->output, "folder of the results (out/<config's name>)")
+      ->type_name("DIR");
+  add_threads(*command, arguments->threads);
+  command->add_flag("--resume", arguments->resume,
+                    "keep finished models and textures, and go on with unfinished ones");
+  command->add_flag("--quiet", arguments->quiet, "show no progress");
+  return {command, [arguments] { return train(*arguments); }};
+}
+
+}  // namespace gramloom

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "jobs/config.h"
+#include "jobs/progress_bar.h"
+#include "jobs/runner.h"
+
+namespace gramloom {
+
+/// A model to train: a [[model]] of the config, of one exemplar, or of several to blend.
+struct Lesson {
+  std::size_t model = 0;               // of the config
+  std::vector<std::size_t> exemplars;  // of the config
+  std::string name;                    // of its files: "pebbles_stones", or the model's for a blend
+};
+std::vector<Lesson> lessons_of(const Config& config);
+
+/// How trainings went, and what became of them: a method each for every exemplar it has learnt, to
+/// be run and scored against it.
+struct Trained {
+  int failed = 0;
+  bool interrupted = false;
+  std::vector<MethodEntry> methods;
+};
+
+/// Trains the models of a config one after another and leaves in `output`/models:
+///   NAME.safetensors          the model, its best state by a score that training does not see
+///   NAME.csv                  the trace of its losses
+///   NAME_000200.png           what it makes after 200 steps, and so on
+///   NAME.checkpoint[.csv]     state of an unfinished training
+/// With `options.resume`, finished ones are kept, and unfinished ones go on to the same bytes. One
+/// that fails does not stop the others. Throws ConfigError when `output` cannot be written, or when
+/// a file in it that would be replaced is no run's.
+Trained train_models(const Config& config, const RunOptions& options, ProgressBar& bar);
+
+}  // namespace gramloom

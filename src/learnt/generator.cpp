@@ -1,0 +1,150 @@
+#include "learnt/generator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/modules.h"
+#include "io/image_file.h"
+#include "io/models_folder.h"
+#include "learnt/learnt_module.h"
+
+namespace gramloom {
+
+namespace {
+
+// Shares of materials, 1 in all; weights that are all 0 have none.
+bool normalise(float* shares, int count) {
+  const float sum = std::accumulate(shares, shares + count, 0.0f);
+  if (!(sum > 0)) return false;
+  for (int m = 0; m < count; ++m) shares[m] /= sum;
+  return true;
+}
+
+std::vector<float> shares_of(const GeneratorParams& params, int materials) {
+  std::vector<float> shares(static_cast<std::size_t>(materials), 0.0f);
+  if (params.weights.empty()) {
+    shares[0] = 1;
+    return shares;
+  }
+  if (static_cast<int>(params.weights.size()) != materials)
+    throw ConfigError("weights: {} numbers are given, the model has {} materials",
+                      params.weights.size(), materials);
+  std::transform(params.weights.begin(), params.weights.end(), shares.begin(),
+                 [](double weight) { return static_cast<float>(weight); });
+  if (!normalise(shares.data(), materials)) throw ConfigError("weights: all are 0");
+  return shares;
+}
+
+// A channel a material, 1 in all, of a picture.
+Image share_map_of(const GeneratorParams& params, int materials) {
+  if (!params.weights.empty()) throw ConfigError("weights and weight_picture exclude each other");
+  const Image picture = read_image(params.weight_picture).image;
+  const bool between = picture.channels == 1 || (materials == 2 && picture.channels == 3);
+  if (!(between && materials == 2) && picture.channels != materials)
+    throw ConfigError("weight_picture {}: has {} channels, the model has {} materials",
+                      params.weight_picture.string(), picture.channels, materials);
+  Image shares(picture.size(), materials);
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const float* from = picture.at(x, y);
+      float* to = shares.at(x, y);
+      if (between && materials == 2) {
+        to[1] = std::clamp(from[0], 0.0f, 1.0f);
+        to[0] = 1 - to[1];
+        continue;
+      }
+      for (int m = 0; m < materials; ++m) to[m] = std::max(0.0f, from[m]);
+      if (!normalise(to, materials))
+        throw ConfigError("weight_picture {}: all channels are 0 at ({}, {})",
+                          params.weight_picture.string(), x, y);
+    }
+  return shares;
+}
+
+}  // namespace
+
+std::filesystem::path model_file(const GeneratorParams& params) {
+  return find_model(params.model, ".safetensors", "model");
+}
+
+Generation generation_of(const GeneratorParams& params, const GeneratorDescription& description,
+                         Size size, Tile tile, const Random& random) {
+  const int materials = static_cast<int>(description.materials.size());
+  Generation wanted{size, tile, static_cast<std::uint32_t>(random.seed()), {}, {}};
+  if (params.weight_picture.empty())
+    wanted.shares = shares_of(params, materials);
+  else
+    wanted.share_map = share_map_of(params, materials);
+  return wanted;
+}
+
+void generate(const GeneratorModel& model, const Generation& wanted, const WriteRows& write,
+              const Control& control) {
+  open_module<LearntModule>().generate(model, wanted, write, control);
+}
+
+Image generate(const GeneratorModel& model, const Generation& wanted, const Control& control) {
+  Image image(wanted.size, model.description.channels);
+  float* to = image.pixels.data();
+  const auto row = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
+  generate(
+      model, wanted,
+      [&](const float* rows, int count) {
+        to = std::copy(rows, rows + row * static_cast<std::size_t>(count), to);
+      },
+      control);
+  return image;
+}
+
+Texture split_generated(const Image& joined, const GeneratorDescription& description) {
+  Texture texture;
+  const auto& layers = description.layers;
+  for (std::size_t i = 0; i < layers.size();) {
+    // A picture and its alpha are two layers of one name.
+    int count = 0;
+    const std::size_t first = i;
+    for (; i < layers.size() && layers[i].name == layers[first].name; ++i) count += layers[i].count;
+    Image part = extract_channels(joined, layers[first].first, count);
+    if (first == 0)
+      texture.image = std::move(part);
+    else
+      texture.maps[layers[first].name] = std::move(part);
+  }
+  return texture;
+}
+
+Texture synthesise(const GeneratorParams& params, const Request& request, const Control& control) {
+  check_fields(params);
+  check_request<GeneratorParams>(request);
+  const GeneratorModel model = read_generator(model_file(params));
+  const Generation wanted = generation_of(params, model.description, request.target.size,
+                                          request.target.tile, request.random);
+  control.step(0, 1);
+  return split_generated(generate(model, wanted, control), model.description);
+}
+
+Cost estimate_rows(const GeneratorDescription& description, Size size) {
+  const double pixels = 1.0 * size.width * size.height;
+  const double strip = 4.0 * size.width * 256 * description.channels;
+  return {6e7 + strip, 0.1 + pixels * (multiplications_per_pixel(description) * 2.5e-11 + 3e-8)};
+}
+
+Cost estimate(const GeneratorParams& params, const RequestSize& request) {
+  check_fields(params);
+  check_request<GeneratorParams>(request);
+  GeneratorDescription description;
+  try {
+    description = read_generator_description(model_file(params));
+  } catch (const ConfigError&) {
+    throw;
+  } catch (const Error& error) {
+    throw ConfigError("{}", error.what());
+  }
+  generation_of(params, description, request.size, request.tile, Random(1));
+  Cost cost = estimate_rows(description, request.size);
+  cost.bytes += 8.0 * request.size.width * request.size.height * description.channels;
+  return cost;
+}
+
+}  // namespace gramloom

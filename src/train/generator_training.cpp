@@ -1,0 +1,84 @@
+#include "train/generator_training.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/modules.h"
+#include "train/train_module.h"
+
+namespace gramloom {
+
+namespace {
+
+void check_lists(const GeneratorRecipe& recipe) {
+  for_each_field<GeneratorRecipe>([&](const auto& field) {
+    if constexpr (is_list<typename std::decay_t<decltype(field)>::value_type>)
+      if ((recipe.*field.member).empty()) throw ConfigError("{} is empty", field.name);
+  });
+  for (const int noise : recipe.noise)
+    if (noise % 4 != 0) throw ConfigError("noise = {}: allowed are multiples of 4", noise);
+  for (const int size : recipe.patch_size)
+    if (size % 2 == 0) throw ConfigError("patch_size = {}: allowed are odd sizes", size);
+}
+
+Size smallest_of(const std::vector<Image>& exemplars) {
+  Size size = exemplars.front().size();
+  for (const Image& exemplar : exemplars)
+    size = {std::min(size.width, exemplar.width), std::min(size.height, exemplar.height)};
+  return size;
+}
+
+}  // namespace
+
+std::vector<GeneratorLevel> levels_of(const GeneratorRecipe& recipe, Size smallest) {
+  const double side = std::min(smallest.width, smallest.height);
+  const int finer =
+      std::max(0, static_cast<int>(std::lround(std::log2(side / recipe.coarsest_side))));
+  std::vector<GeneratorLevel> levels;
+  for (int k = 0; k <= std::min(finer, 7); ++k)
+    levels.push_back(
+        {at_level(recipe.noise, k), at_level(recipe.hidden, k), at_level(recipe.layers, k)});
+  return levels;
+}
+
+GeneratorModel train_generator(const GeneratorLesson& lesson, const Control& control,
+                               const Judge& judge) {
+  check_fields(lesson.recipe);
+  check_lists(lesson.recipe);
+  const Size smallest = smallest_of(lesson.exemplars);
+  // Patches of the coarsest level, and what its convolutions see, need some room.
+  const int needed =
+      2 * std::max(lesson.recipe.patch_size.front(), 2 * lesson.recipe.adversary_layers + 1);
+  GeneratorLesson whole = lesson;
+  GeneratorDescription& description = whole.description;
+  description.levels = levels_of(lesson.recipe, smallest);
+  description.channels = lesson.exemplars.front().channels;
+  description.recipe = to_json_value(lesson.recipe);
+  const int coarsest = std::min(smallest.width, smallest.height) >> (description.levels.size() - 1);
+  if (coarsest < needed)
+    throw ConfigError(
+        "the exemplar is too small: its coarsest level has a side of {} pixels, needed are {}",
+        coarsest, needed);
+  return open_module<TrainModule>().train_generator(whole, control, judge);
+}
+
+Cost estimate_training(const GeneratorLesson& lesson) {
+  const auto levels = levels_of(lesson.recipe, smallest_of(lesson.exemplars));
+  const int count = static_cast<int>(levels.size());
+  const double side =
+      std::min(smallest_of(lesson.exemplars).width, smallest_of(lesson.exemplars).height);
+  Cost cost{5e8, 1};
+  for (int k = 0; k < count; ++k) {
+    const double length = std::min<double>(lesson.recipe.crop, std::ldexp(side, k - count + 1));
+    const double pixels = length * length * at_level(lesson.recipe.batch, k);
+    const GeneratorLevel& level = levels[static_cast<std::size_t>(k)];
+    const double products = 9.0 * level.hidden * level.hidden * level.layers;
+    cost.seconds += at_level(lesson.recipe.steps, k) * (0.01 + pixels * (6e-11 * products + 2e-6));
+    cost.bytes = std::max(cost.bytes, 5e8 + pixels * (12.0 * level.hidden * level.layers +
+                                                      8.0 * lesson.recipe.directions * 4));
+  }
+  return cost;
+}
+
+}  // namespace gramloom

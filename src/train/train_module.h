@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string_view>
+
+#include "train/generator_training.h"
+
+namespace gramloom {
+
+/// What of train/ needs LibTorch, and so lies in a module (core/modules.h).
+struct TrainModule {
+  static constexpr std::string_view name = "train";
+  GeneratorModel (*train_generator)(const GeneratorLesson& lesson, const Control& control,
+                                    const Judge& judge);
+};
+
+namespace train {
+GeneratorModel run_generator_training(const GeneratorLesson& lesson, const Control& control,
+                                      const Judge& judge);
+}  // namespace train
+
+}  // namespace gramloom
