@@ -13,7 +13,8 @@ namespace {
 
 void check_lists(const GeneratorRecipe& recipe) {
   for_each_field<GeneratorRecipe>([&](const auto& field) {
-    if constexpr (is_list<typename std::decay_t<decltype(field)>::value_type>)
+    using T = typename std::decay_t<decltype(field)>::value_type;
+    if constexpr (is_list<T> && is_number<element_t<T>>)
       if ((recipe.*field.member).empty()) throw ConfigError("{} is empty", field.name);
   });
   for (const int noise : recipe.noise)
