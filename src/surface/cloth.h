@@ -6,6 +6,10 @@
 
 namespace gramloom {
 
+/// Degrees.
+inline constexpr Range bend_range{0, 120};
+inline constexpr Range turn_range{-120, 120};
+
 /// How an arm is held, in degrees. Arm and sleeve start straight.
 struct Pose {
   double bend = 0;   // of the elbow
@@ -17,9 +21,9 @@ struct Pose {
   static constexpr auto fields() {
     using P = Pose;
     return std::tuple{
-        Field{"bend", &P::bend, "of the elbow", "degrees", {0, 120}},
-        Field{"twist", &P::twist, "of the forearm about its axis", "degrees", {-120, 120}},
-        Field{"swing", &P::swing, "of the upper arm about its axis", "degrees", {-120, 120}},
+        Field{"bend", &P::bend, "of the elbow", "degrees", bend_range},
+        Field{"twist", &P::twist, "of the forearm about its axis", "degrees", turn_range},
+        Field{"swing", &P::swing, "of the upper arm about its axis", "degrees", turn_range},
     };
   }
 };

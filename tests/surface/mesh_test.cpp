@@ -17,7 +17,7 @@ namespace gramloom {
 namespace {
 
 constexpr Shape every_shape[]{Shape::sphere, Shape::plane, Shape::cube, Shape::cylinder,
-                              Shape::teapot};
+                              Shape::teapot, Shape::tube};
 
 // Six times the signed volume: positive where triangles are counter-clockwise from outside.
 double volume(const Mesh& mesh) {
