@@ -78,7 +78,7 @@ Camera preview_camera(const PreviewParams& p) {
   const bool plane = p.shape == "plane";
   std::vector<double> view = p.view;
   if (view.empty() && plane) view = {25, 38};
-  if (view.empty() && p.shape == "tube") view = {50, 14};  // its bend from the side and inside
+  if (view.empty() && p.shape == "tube") view = {-50, 12};  // its inside from the side
   if (view.empty()) view = {0, 14};
   return make_camera(direction_of(view[0], view[1]), preview_target, plane ? 1.15f : 1,
                      static_cast<float>(p.zoom), p.size);

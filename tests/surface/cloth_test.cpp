@@ -138,6 +138,21 @@ TEST(Cloth, TheSameBytesOnEveryMachine) {
   EXPECT_EQ(hash.text(), "852169979a9a6ec0");
 }
 
+// Whatever is allowed ends in a picture.
+TEST(Cloth, ExtremesStayFinite) {
+  ClothParams params;
+  params.size = {8, 9};
+  for (const double stiffness : {0.0, 1.0})
+    for (const double fold : {0.0, 2.0}) {
+      params.shear = params.bending = stiffness;
+      params.fold = fold;
+      params.slack = 0.6 * stiffness;
+      for (const Pose& pose : {Pose{120, 120, 120}, Pose{120, -120, 120}, Pose{1e-5, 0, 0}})
+        for (const float value : sleeve_displacement(params, pose).pixels)
+          ASSERT_TRUE(std::abs(value) <= 2) << stiffness << " " << fold << " " << value;
+    }
+}
+
 TEST(Cloth, WhatIsOutOfRangeIsRefused) {
   EXPECT_THROW(sleeve_displacement({}, {-1, 0, 0}), ConfigError);
   ClothParams params;
