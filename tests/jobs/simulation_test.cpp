@@ -66,7 +66,7 @@ TEST_F(SimulationTest, IsReproducedByteForByte) {
   hash.add(read_text(folder_ / "threads1/poses.csv"));
   for (const PosedSleeve& sleeve : simulate(parse_simulation(tiny, "s.toml"), {}))
     hash.add(sleeve.displacement.pixels.data(), sleeve.displacement.pixels.size() * sizeof(float));
-  EXPECT_EQ(hash.text(), "");
+  EXPECT_EQ(hash.text(), "97db275b9ac52e71");
 }
 
 TEST_F(SimulationTest, TheTableNamesThePictures) {
