@@ -42,7 +42,8 @@ ExitCode dispatch(int argc, char** argv) {
                                       add_fill(app),
                                       add_arrange(app),
                                       add_export(app),
-                                      add_benchmark(app)};
+                                      add_benchmark(app),
+                                      add_simulate(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {

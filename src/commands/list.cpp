@@ -18,6 +18,7 @@ ExitCode list_topic(const std::string& chosen) {
   if (wanted("patterns")) text += list_patterns();
   if (wanted("metrics")) text += list_metrics();
   if (wanted("maps")) text += list_maps();
+  if (wanted("simulation")) text += list_simulation();
   return print(text);
 }
 
@@ -28,7 +29,7 @@ Command add_list(CLI::App& program) {
   CLI::App* list = program.add_subcommand(
       "list", "List methods, what they can be asked, and what else there is");
   const std::vector<std::string> topics{"methods",  "abilities", "direction", "networks",
-                                        "patterns", "metrics",   "maps"};
+                                        "patterns", "metrics",   "maps",      "simulation"};
   list->add_option("topic", *topic, fmt::format("one of {}", fmt::join(topics, ", ")))
       ->check(CLI::IsMember(topics));
   return {list, [topic] { return list_topic(*topic); }};

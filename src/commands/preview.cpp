@@ -40,12 +40,12 @@ Command add_preview(CLI::App& program) {
   const auto arguments = std::make_shared<PreviewArguments>();
   CLI::App* preview =
       program.add_subcommand("preview", "Show a texture on a shape under a lamp, with its maps");
-  preview
-      ->add_option("images", arguments->work.images,
-                   "the texture; its maps may follow (name_height.png, name_normal.png, …) or lie "
-                   "beside it; a second texture shares the shape by a pattern; or the name of a "
-                   "procedural texture; or, with --mapping solid, slices of a volume")
-      ->required();
+  preview->add_option(
+      "images", arguments->work.images,
+      "the texture; its maps may follow (name_height.png, name_normal.png, …) or lie "
+      "beside it; a second texture shares the shape by a pattern; or the name of a "
+      "procedural texture; or, with --mapping solid, slices of a volume; or none: maps of a "
+      "surface in one colour");
   preview->add_option("--output", arguments->output, "the picture to write")
       ->required()
       ->type_name("FILE");

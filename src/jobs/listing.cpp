@@ -6,6 +6,7 @@
 #include "io/field_values.h"
 #include "jobs/memory.h"
 #include "jobs/progress_bar.h"
+#include "jobs/simulation.h"
 #include "jobs/text_table.h"
 #include "metrics/map_scores.h"
 #include "neural/network/network_description.h"
@@ -158,17 +159,20 @@ std::string job_table(const Config& config, const Plan& plan) {
          fmt::format("{} {}, about {}\n", count, count == 1 ? "job" : "jobs", clock_text(seconds));
 }
 
-std::string list_maps() {
-  std::string text;
-  const auto add = [&]<class Params>(std::type_identity<Params>) {
-    text += fmt::format("{}: {}\n", Params::name, Params::summary);
-    text += text_table(parameter_rows<Params>(), "  ") + "\n";
-  };
-  add(std::type_identity<SurfaceParams>());
-  add(std::type_identity<PhotoParams>());
-  add(std::type_identity<PreviewParams>());
-  return text;
+namespace {
+
+template <class... Params>
+std::string list_named() {
+  return (fmt::format("{}: {}\n{}\n", Params::name, Params::summary,
+                      text_table(parameter_rows<Params>(), "  ")) +
+          ...);
 }
+
+}  // namespace
+
+std::string list_maps() { return list_named<SurfaceParams, PhotoParams, PreviewParams>(); }
+
+std::string list_simulation() { return list_named<SimulationParams, ClothParams>(); }
 
 std::string list_metrics() {
   std::string text;

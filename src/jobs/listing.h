@@ -26,6 +26,9 @@ std::string job_table(const Config& config, const Plan& plan);
 /// What is made of a height map or a photograph, with its parameters.
 std::string list_maps();
 
+/// What a simulation of a sleeve is told.
+std::string list_simulation();
+
 /// Every score with its meaning, its range and what fools it.
 std::string list_metrics();
 

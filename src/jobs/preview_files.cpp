@@ -86,7 +86,7 @@ void read_map(const std::string& name, const fs::path& file, PreviewMaterial& ma
 
 PreviewMaterial read_texture(const TextureFiles& files) {
   PreviewMaterial material;
-  material.colour = read_colours(files.picture);
+  if (!files.picture.empty()) material.colour = read_colours(files.picture);
   for (const auto& [name, file] : files.maps) read_map(name, file, material);
   return material;
 }
@@ -121,13 +121,15 @@ bool is_name(const std::string& image) { return FileOrName(image).is_name(); }
 void check_use(const PreviewWork& work) {
   const bool solid = work.params.mapping == Mapping::solid;
   const bool named = std::any_of(work.images.begin(), work.images.end(), is_name);
+  if (work.images.empty() && (solid || work.maps.empty()))
+    throw ConfigError("needed is a texture, or a map (--map) of a surface in one colour");
   if (!work.set.empty() && !named)
     throw ConfigError("--set {}: has no effect, {} is no procedural texture but a picture",
-                      work.set.front(), work.images.front());
+                      work.set.front(), work.images.empty() ? "a map" : work.images.front());
   if (work.maps.empty()) return;
   const std::string& map = work.maps.begin()->first;
   if (solid) throw ConfigError("--map {}: has no effect on a solid", map);
-  if (is_name(work.images.front()))
+  if (!work.images.empty() && is_name(work.images.front()))
     throw ConfigError("--map {}: has no effect on the procedural texture '{}', which has its own",
                       map, work.images.front());
 }
@@ -166,6 +168,7 @@ Image render(const PreviewWork& work, const fs::path& output, std::vector<std::s
     textures = grouped(work.images);
   for (TextureFiles& texture : textures)
     if (!is_name(texture.picture.string())) find_beside(texture, used);
+  if (work.images.empty()) textures.emplace_back();  // of one colour
   if (!textures.empty()) add_named_maps(textures.front(), work.maps);
   check_output(work, textures, output);
   return render_preview(work.params, read_materials(work, textures), read_environment(work.params),

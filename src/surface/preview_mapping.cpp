@@ -57,6 +57,8 @@ void check_preview(const PreviewParams& p) {
     throw ConfigError("environment has 6 files, the faces of a sky box, and not a {}",
                       to_word(p.environment_kind));
   named_shape(p.shape);
+  if (p.bend != 0 && p.shape != "tube")
+    throw ConfigError("bend = {}: only the tube bends, not '{}'", p.bend, p.shape.string());
   make_frame(p);
   linear_map({}, vector_of("u_axis", p.u_axis), vector_of("v_axis", p.v_axis));
   if (p.mapping == Mapping::solid && p.displacement != 0)
@@ -75,7 +77,9 @@ void check_preview(const PreviewParams& p) {
 Camera preview_camera(const PreviewParams& p) {
   const bool plane = p.shape == "plane";
   std::vector<double> view = p.view;
-  if (view.empty()) view = plane ? std::vector<double>{25, 38} : std::vector<double>{0, 14};
+  if (view.empty() && plane) view = {25, 38};
+  if (view.empty() && p.shape == "tube") view = {-50, 12};  // its inside from the side
+  if (view.empty()) view = {0, 14};
   return make_camera(direction_of(view[0], view[1]), preview_target, plane ? 1.15f : 1,
                      static_cast<float>(p.zoom), p.size);
 }
@@ -119,7 +123,7 @@ Vec2 repeats(const PreviewParams& p, const MappingOf& mapping, Size size) {
   const float square =
       up * mapping.around * static_cast<float>(size.height) / static_cast<float>(size.width);
   // Around a shape a whole number of them, or there would be a seam.
-  return {mapping.around > 1 ? std::max(1.0f, std::round(square)) : square, up};
+  return {mapping.around != 1 ? std::max(1.0f, std::round(square)) : square, up};
 }
 
 Coordinates MappingOf::at(const Mesh& mesh, const Hit& hit, const Vec3& place) const {

@@ -41,6 +41,7 @@ struct PreviewParams {
   static constexpr std::string_view summary = "a picture of the texture on a shape under a lamp";
 
   FileOrName shape = "sphere";
+  double bend = 0;
   Size size{512, 512};
   int samples = 4;
   std::vector<double> repeat;
@@ -96,7 +97,8 @@ struct PreviewParams {
   static constexpr auto fields() {
     using P = PreviewParams;
     return std::tuple{
-        Field{"shape", &P::shape, "sphere, plane, cube, cylinder, teapot, or an OBJ file"},
+        Field{"shape", &P::shape, "sphere, plane, cube, cylinder, teapot, tube, or an OBJ file"},
+        Field{"bend", &P::bend, "of the tube at its middle, as an elbow", "degrees", {0, 120}},
         Field{"size", &P::size, "width and height of the picture", "pixels", {1, 8192}},
         Field{"samples", &P::samples, "samples a pixel, along x and along y", "", {1, 16}},
         Field{"repeat",

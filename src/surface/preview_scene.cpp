@@ -15,8 +15,9 @@ namespace {
 // Shorter ones would make more triangles of a shape than a mesh may have.
 constexpr float shortest_edge = 0.0045f;
 
-Mesh load_shape(const FileOrName& shape, float longest) {
-  if (const auto named = named_shape(shape)) return make_shape(*named, longest);
+Mesh load_shape(const PreviewParams& params, float longest) {
+  const FileOrName& shape = params.shape;
+  if (const auto named = named_shape(shape)) return make_shape(*named, longest, params.bend);
   if (shape.extension() != ".obj" && shape.extension() != ".OBJ")
     throw ConfigError("shape '{}': allowed are {}, or a file (*.obj)", shape.string(),
                       fmt::join(enum_names<Shape>, ", "));
@@ -144,7 +145,7 @@ PreviewScene make_scene(const PreviewParams& params, std::span<const PreviewMate
   const float edge = std::max(
       static_cast<float>(params.detail) * front.pixel_width(length(front.origin)), shortest_edge);
   const float longest = moves ? edge : 1e3f;
-  scene.mesh = with_normals(load_shape(params.shape, longest), params.normals);
+  scene.mesh = with_normals(load_shape(params, longest), params.normals);
   if (moves && !named_shape(params.shape)) scene.mesh = subdivided(std::move(scene.mesh), edge);
   scene.mapping = make_mapping(params, scene.mesh);
   add_materials(scene, materials);

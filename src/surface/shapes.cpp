@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "surface/arm.h"
+
 namespace gramloom {
 
 namespace {
@@ -75,9 +77,34 @@ Mesh cylinder(float longest) {
   return mesh;
 }
 
+// Open at both ends, as a sleeve is.
+Mesh tube(float longest, double bend) {
+  constexpr auto radius = static_cast<float>(2 / arm_length);
+  const ArmAxis axis(bend);
+  Mesh mesh;
+  add_grid(
+      mesh, pieces(2 * pi * radius, longest, 192), pieces(2, longest, 96), [&](float u, float v) {
+        const double along = (0.5 - static_cast<double>(v)) * arm_length;
+        const double around = u >= 1 ? 0 : static_cast<double>(u);
+        const auto at = [&](double from) {
+          const ArmPoint p = point_at(axis, {along, around, from});
+          return Vec3{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+        };
+        return Vertex{at(1) * radius, normalised(at(1) - at(0)), {u, v}};
+      });
+  // Around the middle of the room that it takes.
+  Vec3 low{0, 1, 1}, high{0, -1, -1};
+  for (const Vec3& p : mesh.positions) {
+    low = {0, std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {0, std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  for (Vec3& p : mesh.positions) p = p - (low + high) * 0.5f;
+  return mesh;
+}
+
 }  // namespace
 
-Mesh make_shape(Shape shape, float longest) {
+Mesh make_shape(Shape shape, float longest, double bend) {
   switch (shape) {
     case Shape::sphere:
       return sphere(longest);
@@ -91,12 +118,23 @@ Mesh make_shape(Shape shape, float longest) {
       // A patch is about 3 units wide, and the pot 6.4 to be brought to 2.
       return fitted(teapot(pieces(1, longest, 24)));
     }
+    case Shape::tube:
+      return tube(longest, bend);
   }
   return {};
 }
 
 float widths_around(Shape shape) {
-  return shape == Shape::sphere ? 2 : shape == Shape::cylinder ? pi : 1;
+  switch (shape) {
+    case Shape::sphere:
+      return 2;
+    case Shape::cylinder:
+      return pi;
+    case Shape::tube:
+      return 2 * pi / static_cast<float>(arm_length);
+    default:
+      return 1;
+  }
 }
 
 }  // namespace gramloom

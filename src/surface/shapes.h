@@ -7,12 +7,12 @@
 namespace gramloom {
 
 /// The shapes that need no file. Each fits a ball of radius about 1 and stands on its own lowest
-/// point. Their own coordinates cover the picture: once around (sphere, cylinder), once on each
-/// face (cube, plane, the cylinder's ends), about four times around the teapot.
-enum class Shape { sphere, plane, cube, cylinder, teapot };
+/// point. Their own coordinates cover the picture: once around (sphere, cylinder, tube), once on
+/// each face (cube, plane, the cylinder's ends), about four times around the teapot.
+enum class Shape { sphere, plane, cube, cylinder, teapot, tube };
 template <>
 inline constexpr auto enum_names<Shape> =
-    std::to_array<std::string_view>({"sphere", "plane", "cube", "cylinder", "teapot"});
+    std::to_array<std::string_view>({"sphere", "plane", "cube", "cylinder", "teapot", "tube"});
 
 /// `longest`: about how long an edge may be; curved shapes have edges as short as they need.
 ///   sphere    radius 1, coordinates polar (surface/coordinates.h)
@@ -20,7 +20,9 @@ inline constexpr auto enum_names<Shape> =
 ///   cube      from −0.7 to 0.7
 ///   cylinder  upright, radius 0.7, 1.4 high, coordinates cylindrical; both ends closed
 ///   teapot    M. Newell's of 1975, by its 28 bicubic patches with a bottom
-Mesh make_shape(Shape shape, float longest);
+///   tube      upright, radius ¼, 2 long, bent in its middle by `bend` degrees (surface/arm.h);
+///             open at both ends; v is 1 at the upper one, u ½ on the inside of the bend
+Mesh make_shape(Shape shape, float longest, double bend = 0);
 
 /// How often a square picture goes around the shape when it goes along its height once and is not
 /// to be stretched.

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "io/temp_folder.h"
 #include "io/text_file.h"
+#include "surface/arm.h"
 #include "surface/displacement.h"
 #include "surface/mesh_file.h"
 #include "surface/shapes.h"
@@ -16,8 +17,8 @@
 namespace gramloom {
 namespace {
 
-constexpr Shape every_shape[]{Shape::sphere, Shape::plane, Shape::cube, Shape::cylinder,
-                              Shape::teapot};
+constexpr Shape every_shape[]{Shape::sphere,   Shape::plane,  Shape::cube,
+                              Shape::cylinder, Shape::teapot, Shape::tube};
 
 // Six times the signed volume: positive where triangles are counter-clockwise from outside.
 double volume(const Mesh& mesh) {
@@ -47,6 +48,34 @@ TEST(Shapes, AreWholeAndSeenFromOutside) {
   EXPECT_NEAR(volume(make_shape(Shape::sphere, 0.1f)), 4.18879, 0.02);
   EXPECT_NEAR(volume(make_shape(Shape::cube, 0.1f)), 1.4 * 1.4 * 1.4, 1e-4);
   EXPECT_NEAR(volume(make_shape(Shape::cylinder, 0.1f)), 3.14159 * 0.49 * 1.4, 0.01);
+}
+
+TEST(Shapes, TheTubeBendsAsAnElbow) {
+  for (const double bend : {0.0, 70.0, 120.0}) {
+    const Mesh mesh = make_shape(Shape::tube, 0.1f, bend);
+    EXPECT_NO_THROW(check_mesh(mesh, "tube"));
+    const ArmAxis axis(bend);
+    // Where it was put: the same for all vertices.
+    const auto at = [&](std::size_t i) {
+      const Vec2 c = mesh.coordinates[i];
+      const ArmPoint p = point_at(
+          axis, {(0.5 - static_cast<double>(c.v)) * arm_length, static_cast<double>(c.u), 1});
+      return Vec3{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)} *
+             0.25f;
+    };
+    const Vec3 moved = mesh.positions.front() - at(0);
+    float radius = 0;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      EXPECT_LT(length(mesh.positions[i] - at(i) - moved), 1e-5f);
+      radius = std::max(radius, length(mesh.positions[i]));
+    }
+    EXPECT_LT(radius, 1.05f);
+    for (const auto& t : mesh.triangles) {
+      const Vec3& a = mesh.positions[t[0]];
+      const Vec3 face = cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a);
+      ASSERT_GT(dot(face, mesh.normals[t[0]]), 0);
+    }
+  }
 }
 
 TEST(Shapes, TheTeapotIsNewells) {

@@ -380,7 +380,7 @@ TEST(Preview, WhatCannotBeShownIsToldInALine) {
   p.shape = "spere";
   EXPECT_EQ(refusal(p),
             "unknown shape 'spere' (did you mean 'sphere'?): allowed are sphere, plane, cube, "
-            "cylinder, teapot, or a file (*.obj)");
+            "cylinder, teapot, tube, or a file (*.obj)");
   PreviewMaterial m = stones();
   m.maps["roughness"] = Image(32, 64, 1);
   EXPECT_EQ(refusal(good, m),
