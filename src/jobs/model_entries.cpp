@@ -44,6 +44,11 @@ void check_exemplars(const GeneratorRecipe& recipe, const toml::table& table,
     fail(key_region(table, "blend"), "'blend' is of 2 to 8 exemplars, there are {}", count);
 }
 
+void check_exemplars(const InferenceRecipe& recipe, const toml::table& table, const Config&) {
+  if (recipe.pairs.empty() == recipe.simulation.empty())
+    fail(key_region(table, "kind"), "an inference needs either 'pairs' or 'simulation'");
+}
+
 }  // namespace
 
 std::vector<ModelEntry> read_models(toml::table& table, const Config& config) {

@@ -204,6 +204,7 @@ void train(const Config& config, const Lesson& lesson, const RunOptions& options
 std::vector<Lesson> lessons_of(const Config& config) {
   std::vector<Lesson> lessons;
   for (std::size_t m = 0; m < config.models.size(); ++m) {
+    if (!std::holds_alternative<GeneratorRecipe>(config.models[m].recipe)) continue;
     const auto& recipe = std::get<GeneratorRecipe>(config.models[m].recipe);
     std::vector<std::size_t> wanted;
     for (std::size_t e = 0; e < config.exemplars.size(); ++e)

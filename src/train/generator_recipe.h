@@ -12,14 +12,16 @@ namespace gramloom {
 /// How a generator (learnt/generator_model.h) is trained: a [[model]] of a config. Lists have a
 /// number a level, the coarsest first; the last number stands for all finer levels.
 ///
-/// Level after level, the coarser ones staying as they are. What counts is a sum of
+/// Level after level, with the next coarser one; those below stay as they are. What counts is a sum
+/// of
 /// - the sliced Wasserstein distance of patches, pooled over the pictures of a batch (Rabin, Peyré,
-///   Delon, Bernot 2011; of patches: Elnekave and Weiss 2022), on the level and on two coarser
-///   ones;
+///   Delon, Bernot 2011; of patches: Elnekave and Weiss 2022), on the level and the next coarser;
 /// - an adversary: a small patch discriminator of spectrally normalised convolutions (Miyato et al.
-///   2018) with the hinge loss, which sees the coarser picture too (Isola et al. 2017);
+///   2018) with the hinge loss, which on the finest level sees the coarser picture too (Isola et
+///   al. 2017): without that edges come out jagged there;
 /// - in every other step of levels above the first, the exemplar's own finer level made of its own
 ///   coarser one: sliced distance and mean absolute difference (Shaham et al. 2019, section 3.2).
+/// What is kept is a running mean of the weights (Polyak and Juditsky 1992).
 /// The sliced distance alone gives noise: its value is low, and there are no stones.
 struct GeneratorRecipe {
   static constexpr std::string_view kind = "generator";
@@ -28,19 +30,20 @@ struct GeneratorRecipe {
   std::vector<std::string> exemplars;
   bool blend = false;
   int coarsest_side = 32;
-  std::vector<int> hidden{32, 32, 16, 16};
-  std::vector<int> layers{6, 4, 4, 3};
+  std::vector<int> hidden{32, 32, 32, 16};
+  std::vector<int> layers{6, 4, 3, 3};
   std::vector<int> noise{8, 4, 4, 4};
-  std::vector<int> steps{700, 800, 500, 250};
+  std::vector<int> steps{600, 850, 800, 500};
   std::vector<int> batch{4, 2, 1, 1};
-  int crop = 128;
-  double learning_rate = 0.002;
+  std::vector<int> crop{96, 96, 96, 128};
+  double learning_rate = 0.003;
+  double coarser_rate = 0.3;
   std::vector<int> patch_size{7, 5};
   int directions = 32;
   double whitening = 0.4;
-  std::vector<double> adversary{0.2, 0.1, 0.05, 0.0};
-  int adversary_hidden = 32;
-  int adversary_layers = 4;
+  std::vector<double> adversary{0.2, 0.15, 0.1, 0.04};
+  std::vector<int> adversary_hidden{32, 32, 24, 16};
+  std::vector<int> adversary_layers{4, 4, 4, 3};
   std::vector<double> reconstruction{0.3};
   int sample_every = 200;
   int seed = 1;
@@ -62,6 +65,11 @@ struct GeneratorRecipe {
         Field{"batch", &R::batch, "pictures a step", "", {1, 64}},
         Field{"crop", &R::crop, "side of the pictures of a step, at most", "pixels", {16, 4096}},
         Field{"learning_rate", &R::learning_rate, "of Adam, at first", "", {1e-6, 1}},
+        Field{"coarser_rate",
+              &R::coarser_rate,
+              "share of it with which the next coarser level is trained on",
+              "",
+              {0, 1}},
         Field{"patch_size", &R::patch_size, "sides of patches, by turns", "pixels", {1, 15}},
         Field{
             "directions", &R::directions, "that patches are projected on in a step", "", {1, 1024}},

@@ -16,15 +16,17 @@ double rate_at(int step, int steps) {
   return std::min(1.0, (step + 1) / 20.0) * (done < 0.5 ? 1 : std::pow(0.1, (done - 0.5) / 0.5));
 }
 
-void set_rate(torch::optim::Adam& optimiser, double rate) {
-  for (auto& group : optimiser.param_groups())
-    static_cast<torch::optim::AdamOptions&>(group.options()).lr(rate);
+// Of the first group of parameters; the second, if there is one, has a share of it.
+void set_rate(torch::optim::Adam& optimiser, double rate, double second_share) {
+  double share = 1;
+  for (auto& group : optimiser.param_groups()) {
+    static_cast<torch::optim::AdamOptions&>(group.options()).lr(rate * share);
+    share = second_share;
+  }
 }
 
-std::unique_ptr<torch::optim::Adam> adam(const std::vector<at::Tensor>& parameters, double rate,
-                                         double first_beta) {
-  return std::make_unique<torch::optim::Adam>(
-      parameters, torch::optim::AdamOptions(rate).betas({first_beta, 0.99}));
+torch::optim::AdamOptions adam_options(double rate, double first_beta) {
+  return torch::optim::AdamOptions(rate).betas({first_beta, 0.99});
 }
 
 // Weights lie as oneDNN reads them.
@@ -34,10 +36,10 @@ void use_channels_last(torch::nn::Module& module) {
       parameter.set_data(parameter.detach().contiguous(at::MemoryFormat::ChannelsLast));
 }
 
-// A level's pictures in training: at most `crop`, and whole on the coarsest level.
+// A level's pictures in training: at most `crop` a side, and whole on the coarsest level.
 Size training_size(const GeneratorLesson& lesson, const at::Tensor& exemplar, int level) {
   const auto side = [&](std::int64_t length) {
-    const int longest = std::min(lesson.recipe.crop, static_cast<int>(length));
+    const int longest = std::min(at_level(lesson.recipe.crop, level), static_cast<int>(length));
     return std::max(1, longest >> level) << level;
   };
   return {side(exemplar.size(3)), side(exemplar.size(2))};
@@ -52,7 +54,18 @@ at::Tensor shares_of(const GeneratorLesson& lesson, int material) {
 
 std::uint64_t seed_of(int seed, int level, int step) {
   return static_cast<std::uint64_t>(seed) * 1'000'003u +
-         static_cast<std::uint64_t>(level) * 10'000'019u + static_cast<std::uint64_t>(step);
+         static_cast<std::uint64_t>(level) * 10'000'019u + static_cast<std::uint64_t>(step + 1);
+}
+
+void set_trainable(torch::nn::Module& module, bool trainable) {
+  for (at::Tensor& parameter : module.parameters()) parameter.set_requires_grad(trainable);
+}
+
+bool same_shape(const Discriminator& a, const Discriminator& b) {
+  const auto of_a = a->parameters(), of_b = b->parameters();
+  return std::equal(
+      of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+      [](const at::Tensor& x, const at::Tensor& y) { return x.sizes() == y.sizes(); });
 }
 
 }  // namespace
@@ -62,42 +75,50 @@ at::Tensor noise_like(const LevelNet& net, int batch, Size size) {
   return ((uniform - 0.5) * std::sqrt(12.0)).contiguous(at::MemoryFormat::ChannelsLast);
 }
 
-at::Tensor GeneratorNets::coarser_picture(int level, int batch, Size size,
-                                          const at::Tensor& shares) {
-  if (level == 0) return {};
-  const torch::NoGradGuard no_gradients;
-  return upsampled(picture(level - 1, batch, {size.width / 2, size.height / 2}, shares),
-                   Border::wraps);
-}
-
-at::Tensor GeneratorNets::picture(int level, int batch, Size size, const at::Tensor& shares) {
-  const at::Tensor coarser = coarser_picture(level, batch, size, shares);
-  LevelNet& net = levels[static_cast<std::size_t>(level)];
-  return net->forward(coarser, noise_like(net, batch, size), shares, Border::wraps);
+LevelPictures GeneratorNets::pictures(int level, int first, int batch, Size size,
+                                      const at::Tensor& shares) {
+  LevelPictures made;
+  for (int k = 0; k <= level; ++k) {
+    const torch::AutoGradMode gradients(torch::GradMode::is_enabled() && k >= first);
+    const Size own{size.width >> (level - k), size.height >> (level - k)};
+    LevelNet& net = levels[static_cast<std::size_t>(k)];
+    if (k > 0) made.coarser = upsampled(made.picture, Border::wraps);
+    made.picture = net->forward(made.coarser, noise_like(net, batch, own), shares, Border::wraps);
+  }
+  return made;
 }
 
 GeneratorStage::GeneratorStage(const GeneratorLesson& lesson, const LessonPictures& pictures,
-                               GeneratorNets& nets, int level, std::vector<Discriminator> before)
+                               GeneratorNets& nets, int level, const Discriminators& before)
     : lesson_(lesson),
-      pictures_(pictures),
       nets_(nets),
+      pyramids_(pictures.pyramids),
       level_(level),
+      first_(level > 0 && lesson.recipe.coarser_rate > 0 ? level - 1 : level),
       steps_(at_level(lesson.recipe.steps, level)),
       batch_(at_level(lesson.recipe.batch, level)),
+      sees_coarser_(level > 0 && level + 1 == static_cast<int>(nets.levels.size())),
       adversary_(at_level(lesson.recipe.adversary, level)),
       reconstruction_(level == 0 ? 0 : at_level(lesson.recipe.reconstruction, level)) {
   const GeneratorRecipe& recipe = lesson.recipe;
   torch::manual_seed(seed_of(recipe.seed, level, -1));
-  LevelNet& net = nets.levels[static_cast<std::size_t>(level)];
-  use_channels_last(*net);
-  parameters_ = net->parameters();
-  optimiser_ = adam(parameters_, recipe.learning_rate, adversary_ > 0 ? 0.5 : 0.9);
+  std::vector<torch::optim::OptimizerParamGroup> groups;
+  for (int k = level; k >= first_; --k) {
+    LevelNet& net = nets.levels[static_cast<std::size_t>(k)];
+    use_channels_last(*net);
+    groups.emplace_back(net->parameters());
+    for (const at::Tensor& parameter : net->parameters()) parameters_.push_back(parameter);
+  }
+  for (const at::Tensor& parameter : parameters_) means_.push_back(parameter.detach().clone());
+  optimiser_ = std::make_unique<torch::optim::Adam>(
+      groups, adam_options(recipe.learning_rate, adversary_ > 0 ? 0.5 : 0.9));
   if (adversary_ == 0) return;
   std::vector<at::Tensor> all;
-  for (std::size_t m = 0; m < pictures.pyramids.size(); ++m) {
-    Discriminator discriminator(static_cast<int>(pictures.axes.channels), recipe.adversary_hidden,
-                                recipe.adversary_layers);
-    if (m < before.size()) {
+  for (std::size_t m = 0; m < pyramids_.size(); ++m) {
+    Discriminator discriminator(pictures.axes.channels * (sees_coarser_ ? 2 : 1),
+                                at_level(recipe.adversary_hidden, level),
+                                at_level(recipe.adversary_layers, level));
+    if (m < before.size() && same_shape(before[m], discriminator)) {
       Tensors tensors;
       train::keep(*before[m], "", tensors);
       train::restore(*discriminator, "", tensors);
@@ -106,108 +127,166 @@ GeneratorStage::GeneratorStage(const GeneratorLesson& lesson, const LessonPictur
     for (const at::Tensor& parameter : discriminator->parameters()) all.push_back(parameter);
     discriminators_.push_back(std::move(discriminator));
   }
-  adversary_optimiser_ = adam(all, recipe.learning_rate, 0.5);
+  adversary_optimiser_ =
+      std::make_unique<torch::optim::Adam>(all, adam_options(recipe.learning_rate, 0.5));
 }
 
-at::Tensor GeneratorStage::judged(int material, const at::Tensor& picture, const at::Tensor&,
-                                  bool wraps) {
-  return discriminators_[static_cast<std::size_t>(material)]->forward(picture, wraps);
+at::Tensor GeneratorStage::judged(int material, const LevelPictures& pictures, bool wraps) const {
+  Discriminator discriminator = discriminators_[static_cast<std::size_t>(material)];
+  const at::Tensor seen = sees_coarser_
+                              ? at::cat({pictures.picture - pictures.coarser, pictures.coarser}, 1)
+                              : pictures.picture;
+  return discriminator->forward(seen, wraps);
 }
 
-// The hinge loss: what is real above 1, what is made below −1.
-float GeneratorStage::train_discriminator(int material, const at::Tensor& picture,
-                                           const at::Tensor& coarser) {
-  const at::Tensor& exemplar =
-      pictures_.pyramids[static_cast<std::size_t>(material)][static_cast<std::size_t>(level_)];
-  const at::Tensor real = judged(material, exemplar, {}, false);
-  const at::Tensor made = judged(material, picture.detach(), coarser, true);
-  const at::Tensor loss = at::relu(1 - real).mean() + at::relu(1 + made).mean();
+// Trains the discriminator by the hinge loss, what is real to be above 1, what is made below −1;
+// then how little it believes what is made.
+at::Tensor GeneratorStage::believed(int material, const LevelPictures& made,
+                                    const LevelPictures& real, bool wraps) {
+  Discriminator& discriminator = discriminators_[static_cast<std::size_t>(material)];
+  const LevelPictures fixed{made.picture.detach(),
+                            made.coarser.defined() ? made.coarser.detach() : made.coarser};
+  const at::Tensor loss = at::relu(1 - judged(material, real, false)).mean() +
+                          at::relu(1 + judged(material, fixed, wraps)).mean();
   adversary_optimiser_->zero_grad();
   loss.backward();
   adversary_optimiser_->step();
-  return loss.item<float>();
+  latest_[2] = loss.item<float>();
+  set_trainable(*discriminator, false);
+  const at::Tensor doubt = -judged(material, made, wraps).mean();
+  set_trainable(*discriminator, true);
+  latest_[1] = doubt.item<float>();
+  return doubt;
 }
 
-at::Tensor GeneratorStage::generated(int material, int patch_size) {
-  const auto& pyramid = pictures_.pyramids[static_cast<std::size_t>(material)];
-  const Size size = training_size(lesson_, pyramid[static_cast<std::size_t>(level_)], level_);
-  const at::Tensor shares = shares_of(lesson_, material);
-  LevelNet& net = nets_.levels[static_cast<std::size_t>(level_)];
-  const at::Tensor coarser = nets_.coarser_picture(level_, batch_, size, shares);
-  const at::Tensor picture =
-      net->forward(coarser, noise_like(net, batch_, size), shares, Border::wraps);
-  at::Tensor loss =
-      sliced_distance_of_levels(picture, pyramid, level_, lesson_.recipe.directions, patch_size);
-  latest_[0] = loss.item<float>();
-  if (discriminators_.empty()) return loss;
-  latest_[2] = train_discriminator(material, picture, coarser);
-  Discriminator& discriminator = discriminators_[static_cast<std::size_t>(material)];
-  for (at::Tensor& parameter : discriminator->parameters()) parameter.set_requires_grad(false);
-  const at::Tensor believed = -judged(material, picture, coarser, true).mean();
-  for (at::Tensor& parameter : discriminator->parameters()) parameter.set_requires_grad(true);
-  latest_[1] = believed.item<float>();
-  return loss + adversary_ * believed;
+// Of the level, and half as much of the next coarser one. Not pooled: each picture by itself.
+at::Tensor GeneratorStage::distance(const at::Tensor& pictures,
+                                    const std::vector<at::Tensor>& pyramid, int patch_size,
+                                    bool pooled) const {
+  const auto level = static_cast<std::size_t>(level_);
+  const int directions = lesson_.recipe.directions;
+  const auto of = [&](const at::Tensor& some, int count) {
+    at::Tensor sum = sliced_distance(some, pyramid[level], count, patch_size, true);
+    if (level_ > 0)
+      sum = sum + 0.5 * sliced_distance(at::avg_pool2d(some, 2), pyramid[level - 1],
+                                        std::max(1, directions / 2), patch_size, true);
+    return sum;
+  };
+  if (pooled || pictures.size(0) == 1) return of(pictures, directions);
+  at::Tensor sum = at::zeros({});
+  const auto count = static_cast<int>(pictures.size(0));
+  for (int i = 0; i < count; ++i)
+    sum = sum + of(pictures.slice(0, i, i + 1), std::max(12, directions / count));
+  return sum / count;
 }
 
-// The exemplar's own finer level, made of its own coarser one.
-at::Tensor GeneratorStage::reconstructed(int material, int patch_size) {
-  const auto& pyramid = pictures_.pyramids[static_cast<std::size_t>(material)];
+// A part of the exemplar's level, as large as a picture in training, and its coarser level there.
+LevelPictures GeneratorStage::part_of_exemplar(const std::vector<at::Tensor>& pyramid) const {
   const at::Tensor& whole = pyramid[static_cast<std::size_t>(level_)];
+  if (level_ == 0) return {whole, {}};
   const at::Tensor larger =
       upsampled(pyramid[static_cast<std::size_t>(level_) - 1], Border::mirrors);
   // Each coarser pixel is four finer ones; an odd last row or column has no coarser one.
-  const std::int64_t height = larger.size(2), width = larger.size(3);
-  const std::int64_t rows = std::min<std::int64_t>(lesson_.recipe.crop, height) / 2 * 2;
-  const std::int64_t columns = std::min<std::int64_t>(lesson_.recipe.crop, width) / 2 * 2;
-  const auto place = [](std::int64_t free) {
+  const std::int64_t crop = at_level(lesson_.recipe.crop, level_);
+  const std::int64_t rows = std::min(crop, larger.size(2)) / 2 * 2;
+  const std::int64_t columns = std::min(crop, larger.size(3)) / 2 * 2;
+  const auto place = [](std::int64_t free) -> std::int64_t {
     return free < 2 ? 0 : 2 * at::randint(free / 2 + 1, {1}, at::kLong).item<std::int64_t>();
   };
-  const std::int64_t top = place(height - rows), left = place(width - columns);
-  const auto crop = [&](const at::Tensor& picture) {
+  const std::int64_t top = place(larger.size(2) - rows), left = place(larger.size(3) - columns);
+  const auto cut = [&](const at::Tensor& picture) {
     return picture.slice(2, top, top + rows)
         .slice(3, left, left + columns)
         .contiguous(at::MemoryFormat::ChannelsLast);
   };
+  return {cut(whole), cut(larger)};
+}
+
+at::Tensor GeneratorStage::generated(int material, int patch_size, bool pooled) {
+  const auto& pyramid = pyramids_[static_cast<std::size_t>(material)];
+  const Size size = training_size(lesson_, pyramid[static_cast<std::size_t>(level_)], level_);
+  const LevelPictures made =
+      nets_.pictures(level_, first_, batch_, size, shares_of(lesson_, material));
+  const at::Tensor loss = distance(made.picture, pyramid, patch_size, pooled);
+  latest_[0] = loss.item<float>();
+  if (discriminators_.empty()) return loss;
+  return loss + adversary_ * believed(material, made, part_of_exemplar(pyramid), true);
+}
+
+// The exemplar's own finer level, made of its own coarser one.
+at::Tensor GeneratorStage::reconstructed(int material, int patch_size) {
+  const auto& pyramid = pyramids_[static_cast<std::size_t>(material)];
+  const LevelPictures real = part_of_exemplar(pyramid);
+  const Size size{static_cast<int>(real.picture.size(3)), static_cast<int>(real.picture.size(2))};
   LevelNet& net = nets_.levels[static_cast<std::size_t>(level_)];
-  const at::Tensor exemplar = crop(whole);
-  const at::Tensor picture = net->forward(
-      crop(larger), noise_like(net, 1, {static_cast<int>(columns), static_cast<int>(rows)}),
-      shares_of(lesson_, material), Border::mirrors);
-  const at::Tensor difference = (picture - exemplar).abs().mean();
+  const LevelPictures made{net->forward(real.coarser, noise_like(net, 1, size),
+                                        shares_of(lesson_, material), Border::mirrors),
+                           real.coarser};
+  const at::Tensor difference = (made.picture - real.picture).abs().mean();
   latest_[3] = difference.item<float>();
-  return reconstruction_ * difference +
-         sliced_distance(picture, exemplar, lesson_.recipe.directions, patch_size, false);
+  const at::Tensor loss =
+      reconstruction_ * difference +
+      sliced_distance(made.picture, real.picture, lesson_.recipe.directions, patch_size, false);
+  if (discriminators_.empty()) return loss;
+  return loss + adversary_ * believed(material, made, real, false);
 }
 
 std::vector<Term> GeneratorStage::step(int step) {
   const GeneratorRecipe& recipe = lesson_.recipe;
   torch::manual_seed(seed_of(recipe.seed, level_, step));
   const double rate = recipe.learning_rate * rate_at(step, steps_);
-  set_rate(*optimiser_, rate);
-  if (adversary_optimiser_) set_rate(*adversary_optimiser_, rate);
-  // Materials take turns, then pictures and reconstructions, then patch sizes: each meets each.
-  const int materials = static_cast<int>(pictures_.pyramids.size());
+  set_rate(*optimiser_, rate, recipe.coarser_rate);
+  if (adversary_optimiser_) set_rate(*adversary_optimiser_, rate, 1);
+  // Materials take turns, then pictures and reconstructions, then patch sizes, then pooling: each
+  // meets each.
+  const int materials = static_cast<int>(pyramids_.size());
   const int material = step % materials, turn = step / materials;
-  const bool reconstructs = reconstruction_ > 0 && turn % 2 == 1;
-  const int round = reconstruction_ > 0 ? turn / 2 : turn;
+  const int round = turn / 2;
   const auto& sizes = recipe.patch_size;
   const int patch_size = sizes[static_cast<std::size_t>(round) % sizes.size()];
+  const bool pooled = round / static_cast<int>(sizes.size()) % 2 == 0;
+  const bool reconstructs = reconstruction_ > 0 && turn % 2 == 1;
   const at::Tensor loss =
-      reconstructs ? reconstructed(material, patch_size) : generated(material, patch_size);
+      reconstructs ? reconstructed(material, patch_size) : generated(material, patch_size, pooled);
   optimiser_->zero_grad();
   loss.backward();
   torch::nn::utils::clip_grad_norm_(parameters_, 1.0);
   optimiser_->step();
+  update_means(step);
   return {{"sliced", latest_[0]},
           {"adversary", latest_[1]},
           {"discriminator", latest_[2]},
           {"reconstruction", latest_[3]}};
 }
 
+void GeneratorStage::update_means(int step) {
+  const torch::NoGradGuard no_gradients;
+  const double decay = std::min(0.99, (1.0 + step) / (10.0 + step));
+  for (std::size_t i = 0; i < means_.size(); ++i)
+    means_[i].mul_(decay).add_(parameters_[i], 1 - decay);
+}
+
+void GeneratorStage::with_means(const std::function<void()>& work) {
+  std::vector<at::Tensor> own;
+  for (std::size_t i = 0; i < means_.size(); ++i) {
+    own.push_back(parameters_[i].detach());
+    parameters_[i].set_data(means_[i]);
+  }
+  work();
+  for (std::size_t i = 0; i < means_.size(); ++i) parameters_[i].set_data(own[i]);
+}
+
+void GeneratorStage::take_means() {
+  const torch::NoGradGuard no_gradients;
+  for (std::size_t i = 0; i < means_.size(); ++i) parameters_[i].copy_(means_[i]);
+}
+
 void GeneratorStage::keep(Tensors& tensors) {
   train::keep(*nets_.levels[static_cast<std::size_t>(level_)], "net.", tensors);
   train::keep(*optimiser_, "optimiser.", tensors);
   tensors["latest"] = {{4}, {latest_.begin(), latest_.end()}};
+  for (std::size_t i = 0; i < means_.size(); ++i)
+    tensors[fmt::format("mean{}", i)] = to_data(means_[i]);
   if (!adversary_optimiser_) return;
   train::keep(*adversary_optimiser_, "adversary_optimiser.", tensors);
   for (std::size_t m = 0; m < discriminators_.size(); ++m)
@@ -218,6 +297,8 @@ void GeneratorStage::restore(const Tensors& tensors) {
   train::restore(*nets_.levels[static_cast<std::size_t>(level_)], "net.", tensors);
   train::restore(*optimiser_, "optimiser.", tensors);
   std::copy_n(tensors.at("latest").values.begin(), latest_.size(), latest_.begin());
+  for (std::size_t i = 0; i < means_.size(); ++i)
+    means_[i].copy_(to_tensor(tensors, fmt::format("mean{}", i), means_[i].sizes()));
   if (!adversary_optimiser_) return;
   train::restore(*adversary_optimiser_, "adversary_optimiser.", tensors);
   for (std::size_t m = 0; m < discriminators_.size(); ++m)

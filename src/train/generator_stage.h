@@ -3,6 +3,7 @@
 #include <torch/torch.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -13,52 +14,70 @@
 
 namespace gramloom::train {
 
-/// The generator under training: its levels so far.
+/// A level's pictures (batch, channels, height, width), and what the level was given: the coarser
+/// pictures, made as large. That is undefined on the first level.
+struct LevelPictures {
+  at::Tensor picture, coarser;
+};
+
+/// The generator under training.
 struct GeneratorNets {
   std::vector<LevelNet> levels;
 
-  /// Level `level`'s pictures, `batch` of this size on that level: noise from LibTorch's random
-  /// numbers, edges that wrap, gradients of that level alone.
-  at::Tensor picture(int level, int batch, Size size, const at::Tensor& shares);
-  /// What level `level` is given: the coarser level's picture made as large; undefined on the
-  /// first.
-  at::Tensor coarser_picture(int level, int batch, Size size, const at::Tensor& shares);
+  /// Pictures of `level`, of this size there, with edges that wrap; noise from LibTorch's random
+  /// numbers; gradients of levels from `first` on.
+  LevelPictures pictures(int level, int first, int batch, Size size, const at::Tensor& shares);
 };
 
 /// Uniform noise of variance 1 for a level.
 at::Tensor noise_like(const LevelNet& net, int batch, Size size);
 
+/// A discriminator, or none, for each material.
+using Discriminators = std::vector<Discriminator>;
+
 /// The training of one level: a step at a time.
 class GeneratorStage {
  public:
-  /// `before`: the discriminators of the coarser level, which those of this one begin as.
+  /// `before`: the discriminators of the coarser level, which those of this one begin as where they
+  /// are alike.
   GeneratorStage(const GeneratorLesson& lesson, const LessonPictures& pictures, GeneratorNets& nets,
-                 int level, std::vector<Discriminator> before);
+                 int level, const Discriminators& before);
 
   int steps() const { return steps_; }
   /// Step `step`; its random numbers depend on the seed, the level and the step alone. Returns the
-  /// terms that it saw.
+  /// terms, each as it was last seen.
   std::vector<Term> step(int step);
-  std::vector<Discriminator> discriminators() const { return discriminators_; }
+  const Discriminators& discriminators() const { return discriminators_; }
+
+  /// Calls `work` while the networks have the mean weights.
+  void with_means(const std::function<void()>& work);
+  /// Gives the networks the mean weights, at the end.
+  void take_means();
 
   void keep(Tensors& tensors);
   void restore(const Tensors& tensors);
 
  private:
-  at::Tensor generated(int material, int patch_size);
+  at::Tensor generated(int material, int patch_size, bool pooled);
   at::Tensor reconstructed(int material, int patch_size);
-  float train_discriminator(int material, const at::Tensor& picture, const at::Tensor& coarser);
-  at::Tensor judged(int material, const at::Tensor& picture, const at::Tensor& coarser, bool wraps);
+  at::Tensor distance(const at::Tensor& pictures, const std::vector<at::Tensor>& pyramid,
+                      int patch_size, bool pooled) const;
+  at::Tensor believed(int material, const LevelPictures& made, const LevelPictures& real,
+                      bool wraps);
+  at::Tensor judged(int material, const LevelPictures& pictures, bool wraps) const;
+  LevelPictures part_of_exemplar(const std::vector<at::Tensor>& pyramid) const;
+  void update_means(int step);
 
   const GeneratorLesson& lesson_;
-  const LessonPictures& pictures_;
   GeneratorNets& nets_;
-  int level_, steps_, batch_;
+  const std::vector<std::vector<at::Tensor>>& pyramids_;
+  int level_, first_, steps_, batch_;
+  bool sees_coarser_;  // the discriminator
   double adversary_, reconstruction_;
-  std::vector<at::Tensor> parameters_;
+  std::vector<at::Tensor> parameters_, means_;  // of the levels that are trained
   std::unique_ptr<torch::optim::Adam> optimiser_, adversary_optimiser_;
-  std::array<float, 4> latest_{};              // values of the terms, each when last seen
-  std::vector<Discriminator> discriminators_;  // one a material; none: no adversary
+  Discriminators discriminators_;
+  std::array<float, 4> latest_{};  // values of the terms
 };
 
 }  // namespace gramloom::train

@@ -49,8 +49,8 @@ GeneratorModel train_generator(const GeneratorLesson& lesson, const Control& con
   check_lists(lesson.recipe);
   const Size smallest = smallest_of(lesson.exemplars);
   // Patches of the coarsest level, and what its convolutions see, need some room.
-  const int needed =
-      2 * std::max(lesson.recipe.patch_size.front(), 2 * lesson.recipe.adversary_layers + 1);
+  const int needed = 2 * std::max(lesson.recipe.patch_size.front(),
+                                  2 * lesson.recipe.adversary_layers.front() + 1);
   GeneratorLesson whole = lesson;
   GeneratorDescription& description = whole.description;
   description.levels = levels_of(lesson.recipe, smallest);
@@ -71,7 +71,8 @@ Cost estimate_training(const GeneratorLesson& lesson) {
       std::min(smallest_of(lesson.exemplars).width, smallest_of(lesson.exemplars).height);
   Cost cost{5e8, 1};
   for (int k = 0; k < count; ++k) {
-    const double length = std::min<double>(lesson.recipe.crop, std::ldexp(side, k - count + 1));
+    const double length =
+        std::min<double>(at_level(lesson.recipe.crop, k), std::ldexp(side, k - count + 1));
     const double pixels = length * length * at_level(lesson.recipe.batch, k);
     const GeneratorLevel& level = levels[static_cast<std::size_t>(k)];
     const double products = 9.0 * level.hidden * level.hidden * level.layers;

@@ -15,15 +15,6 @@ auto state_key(const at::Tensor& parameter) {
 #endif
 }
 
-at::Tensor to_tensor(const Tensors& tensors, const std::string& name, at::IntArrayRef shape) {
-  const auto found = tensors.find(name);
-  if (found == tensors.end()) throw Error("the state of a training lacks '{}'", name);
-  const TensorData& data = found->second;
-  if (at::IntArrayRef(data.shape) != shape)
-    throw Error("the state of a training has another shape of '{}'", name);
-  return at::from_blob(const_cast<float*>(data.values.data()), data.shape, at::kFloat).clone();
-}
-
 template <class F>
 void for_each_tensor(const torch::nn::Module& module, const std::string& prefix, F&& f) {
   for (const auto& item : module.named_parameters()) f(prefix + item.key(), item.value());
@@ -40,6 +31,15 @@ void for_each_parameter(torch::optim::Adam& optimiser, const std::string& prefix
 }
 
 }  // namespace
+
+at::Tensor to_tensor(const Tensors& tensors, const std::string& name, at::IntArrayRef shape) {
+  const auto found = tensors.find(name);
+  if (found == tensors.end()) throw Error("the state of a training lacks '{}'", name);
+  const TensorData& data = found->second;
+  if (at::IntArrayRef(data.shape) != shape)
+    throw Error("the state of a training has another shape of '{}'", name);
+  return at::from_blob(const_cast<float*>(data.values.data()), data.shape, at::kFloat).clone();
+}
 
 TensorData to_data(const at::Tensor& tensor) {
   const at::Tensor values = tensor.detach().to(at::kFloat).contiguous();

@@ -14,6 +14,8 @@ namespace gramloom::train {
 using Tensors = std::map<std::string, TensorData>;
 
 TensorData to_data(const at::Tensor& tensor);
+/// Throws Error for one that is missing or of another shape.
+at::Tensor to_tensor(const Tensors& tensors, const std::string& name, at::IntArrayRef shape);
 
 /// All parameters and buffers of a module, as "PREFIX.name"; and back, each of its own shape.
 /// Throws Error for one that is missing or of another shape.

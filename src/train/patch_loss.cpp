@@ -22,6 +22,15 @@ at::Tensor as_rows(const at::Tensor& projections) {
   return projections.permute({1, 0, 2, 3}).reshape({projections.size(1), -1});
 }
 
+// The exemplar's projections; `sparse`: of every other patch, from a random one on.
+at::Tensor projections_of(const at::Tensor& exemplar, const at::Tensor& filters, bool sparse) {
+  if (!sparse) return at::conv2d(exemplar, filters);
+  const at::Tensor first = at::randint(2, {2}, at::kLong);
+  return at::conv2d(
+      exemplar.slice(2, first[0].item<std::int64_t>()).slice(3, first[1].item<std::int64_t>()),
+      filters, {}, 2);
+}
+
 }  // namespace
 
 at::Tensor of_same_rank(const at::Tensor& values, const at::Tensor& target) {
@@ -62,27 +71,13 @@ at::Tensor sliced_distance(const at::Tensor& pictures, const at::Tensor& exempla
   at::Tensor goal;
   {
     const torch::NoGradGuard no_gradients;
-    const at::Tensor matched =
-        of_same_rank(as_rows(projections.detach()), as_rows(at::conv2d(exemplar, filters)));
+    const at::Tensor matched = of_same_rank(
+        as_rows(projections.detach()),
+        as_rows(projections_of(exemplar, filters, exemplar.size(2) > pictures.size(2))));
     goal = matched.view({directions, projections.size(0), projections.size(2), projections.size(3)})
                .permute({1, 0, 2, 3});
   }
   return (projections - goal).square().mean();
-}
-
-at::Tensor sliced_distance_of_levels(const at::Tensor& pictures,
-                                     const std::vector<at::Tensor>& exemplar, int level,
-                                     int directions, int patch_size) {
-  at::Tensor sum = sliced_distance(pictures, exemplar[static_cast<std::size_t>(level)], directions,
-                                   patch_size, true);
-  at::Tensor coarser = pictures;
-  double weight = 0.5;
-  for (int k = level - 1; k >= 0 && k >= level - 2; --k, weight /= 2) {
-    coarser = at::avg_pool2d(coarser, 2);
-    sum = sum + weight * sliced_distance(coarser, exemplar[static_cast<std::size_t>(k)], directions,
-                                         patch_size, true);
-  }
-  return sum;
 }
 
 }  // namespace gramloom::train

@@ -26,8 +26,8 @@ struct Training {
   int next_step = 0;  // of that level
   double best_score = std::numeric_limits<double>::infinity();
   std::map<std::string, TensorData> best = {};
-  std::vector<Discriminator> discriminators = {};  // of the level before
-  std::optional<Tensors> saved = {};               // of the stage to go on with
+  Discriminators discriminators = {};  // of the level before
+  std::optional<Tensors> saved = {};   // of the stage to go on with
 };
 
 // The model's tensors of the nets as they are.
@@ -119,7 +119,7 @@ void train_level(Training& training) {
     progress.loss = progress.terms.front().value;
     const bool last = training.next_step == stage.steps();
     if (last || progress.step % training.lesson.recipe.sample_every == 0)
-      look(training, static_cast<int>(progress.step));
+      stage.with_means([&] { look(training, static_cast<int>(progress.step)); });
     const bool goes_on = training.control.report(progress);
     const auto now = std::chrono::steady_clock::now();
     if (goes_on && (last || now - kept_at < std::chrono::minutes(1))) continue;
@@ -128,6 +128,7 @@ void train_level(Training& training) {
     write_state(training, stage);
     if (!goes_on) throw Interrupted();
   }
+  stage.take_means();
   take_tensors(training.nets, training.model);
   training.discriminators = stage.discriminators();
   training.next_step = 0;
