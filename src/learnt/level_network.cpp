@@ -1,5 +1,6 @@
 #include "learnt/level_network.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -28,9 +29,27 @@ memory::desc plain(memory::dims shape, memory::format_tag tag) {
   return {std::move(shape), memory::data_type::f32, tag};
 }
 
+// Whole blocks: convolutions of oneDNN are slow on others.
+int in_blocks(int channels) {
+  const int block = channel_block();
+  return (channels + block - 1) / block * block;
+}
+
 memory::desc planes_of(Size size, int channels) {
-  return plain({1, channels, size.height, size.width},
+  return plain({1, in_blocks(channels), size.height, size.width},
                channel_block() == 16 ? memory::format_tag::nChw16c : memory::format_tag::nChw8c);
+}
+
+// Weights with zeros for the channels that fill the last blocks.
+std::vector<float> in_whole_blocks(const std::vector<float>& weights, int inputs, int outputs,
+                                   int filter) {
+  const auto own = static_cast<std::size_t>(inputs) * static_cast<std::size_t>(filter);
+  const auto row = static_cast<std::size_t>(in_blocks(inputs)) * static_cast<std::size_t>(filter);
+  std::vector<float> padded(static_cast<std::size_t>(in_blocks(outputs)) * row);
+  for (std::size_t o = 0; o < static_cast<std::size_t>(outputs); ++o)
+    std::copy_n(weights.begin() + static_cast<std::ptrdiff_t>(o * own), own,
+                padded.begin() + static_cast<std::ptrdiff_t>(o * row));
+  return padded;
 }
 
 // A material's value of a channel, mixed.
@@ -99,6 +118,7 @@ LevelNetwork::LevelNetwork(const GeneratorModel& model, int level, Size size,
     layers_.push_back(make_layer(weights, bias, inputs, shape.hidden, 3, !mixed_, i > 0));
     layers_.back().bias_scale = scale;
   }
+  if (shape.layers > 1) scale /= half_root;
   std::vector<float> weights = model.values(name + "out.weight");
   std::vector<float> bias = model.values(name + "out.bias");
   for (float& value : weights) value /= scale;
@@ -122,11 +142,11 @@ LevelNetwork::Layer LevelNetwork::make_layer(const std::vector<float>& weights,
   attributes.set_post_ops(after);
   // A scratchpad of its own: oneDNN's is shared by all primitives of a thread.
   attributes.set_scratchpad_mode(dnnl::scratchpad_mode::user);
-  const memory::dims shape{outputs, inputs, kernel, kernel};
+  const memory::dims shape{in_blocks(outputs), in_blocks(inputs), kernel, kernel};
   const memory::dims around{kernel / 2, kernel / 2};
   const ConvolutionShape described{planes_of(size_, inputs),
                                    plain(shape, memory::format_tag::any),
-                                   plain({outputs}, memory::format_tag::x),
+                                   plain({in_blocks(outputs)}, memory::format_tag::x),
                                    planes_of(size_, outputs),
                                    {1, 1},
                                    {0, 0},
@@ -134,14 +154,15 @@ LevelNetwork::Layer LevelNetwork::make_layer(const std::vector<float>& weights,
   const auto made =
       describe_forward(engine_, dnnl::algorithm::convolution_direct, described, attributes);
   Layer layer{dnnl::convolution_forward(made), memory(made.weights_desc(), engine_),
-              memory(plain({outputs}, memory::format_tag::x), engine_),
+              memory(plain({in_blocks(outputs)}, memory::format_tag::x), engine_),
               memory(made.scratchpad_desc(), engine_)};
-  memory given(plain(shape, memory::format_tag::oihw), engine_, const_cast<float*>(weights.data()));
+  std::vector<float> padded = in_whole_blocks(weights, inputs, outputs, kernel * kernel);
+  memory given(plain(shape, memory::format_tag::oihw), engine_, padded.data());
   dnnl::reorder(given, layer.weights).execute(stream_, given, layer.weights);
   stream_.wait();
-  std::memcpy(layer.bias.get_data_handle(), bias.data(), bias.size() * sizeof(float));
-  if (!activated && kernel == 3)  // activate() adds it
-    std::memset(layer.bias.get_data_handle(), 0, bias.size() * sizeof(float));
+  std::memset(layer.bias.get_data_handle(), 0, layer.bias.get_desc().get_size());
+  if (activated || kernel == 1)  // else activate() adds it
+    std::memcpy(layer.bias.get_data_handle(), bias.data(), bias.size() * sizeof(float));
   return layer;
 }
 
