@@ -32,6 +32,7 @@ ExitCode dispatch(int argc, char** argv) {
       "interrupted.");
   const std::vector<Command> commands{add_run(app, {argv, argv + argc}),
                                       add_train(app, {argv, argv + argc}),
+                                      add_generate(app),
                                       add_check(app),
                                       add_list(app),
                                       add_score(app),

@@ -1,11 +1,11 @@
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <memory>
 
 #include "commands/command.h"
 #include "commands/config_options.h"
 #include "commands/field_options.h"
 #include "commands/map_files.h"
+#include "commands/size_option.h"
 #include "commands/with_progress.h"
 #include "core/error.h"
 #include "core/threads.h"
@@ -15,8 +15,6 @@
 namespace gramloom {
 
 namespace {
-
-constexpr int longest_side = 1'000'000;
 
 struct TileArguments {
   TileWork work;
@@ -29,29 +27,12 @@ struct TileArguments {
   bool quiet = false;
 };
 
-// "16384x8192", or one number for a square.
-Size size_of(const std::string& text) {
-  const auto cross = text.find_first_of("xX");
-  const auto number = [&](std::string_view word) {
-    int value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || value < 1 ||
-        value > longest_side)
-      throw ConfigError("--size {}: needed is WIDTHxHEIGHT, each from 1 to {} pixels", text,
-                        longest_side);
-    return value;
-  };
-  const std::string_view words(text);
-  if (cross == std::string::npos) return {number(words), number(words)};
-  return {number(words.substr(0, cross)), number(words.substr(cross + 1))};
-}
-
 ExitCode tile(const TileArguments& arguments) {
   set_thread_count(arguments.threads);
   TileWork work = arguments.work;
   work.picture = arguments.picture;
   work.output = arguments.output;
-  work.size = size_of(arguments.size);
+  work.size = size_of("--size", arguments.size);
   work.maps = named_maps(arguments.maps);
   if (arguments.max_side > 0) work.max_side = arguments.max_side;
   return with_progress(work.output.filename().string(), arguments.quiet,

@@ -50,6 +50,19 @@ bool made_by_us(const fs::path& picture) {
   }
 }
 
+// The maps that a trained model makes besides its picture; of one that cannot be read, none.
+std::vector<std::string> maps_of_model(const Method& method) {
+  std::vector<std::string> names;
+  const auto* generator = std::get_if<GeneratorParams>(&method);
+  if (!generator) return names;
+  try {
+    for (const GeneratorLayer& layer : read_generator_description(model_file(*generator)).layers)
+      names.push_back(layer.name);
+  } catch (const Error&) {
+  }
+  return names;
+}
+
 // Looks at one file after the other that a run is going to write or remove.
 class Guard {
  public:
@@ -128,6 +141,8 @@ class Guard {
       return [&maps = config_.exemplars[*job.exemplar].maps, made](const std::string& name) {
         return maps.contains(name) || contains(made, name);
       };
+    for (const std::string& name : maps_of_model(config_.methods[job.method].method))
+      made.push_back(name);
     return [made](const std::string& name) {
       return name == "height" || name == "mask" || name.starts_with("frame_") ||
              contains(made, name);

@@ -1,0 +1,119 @@
+#include "jobs/generate_picture.h"
+
+#include "core/error.h"
+#include "io/image_rows.h"
+#include "io/json_fields.h"
+#include "jobs/machine.h"
+#include "jobs/protected_files.h"
+#include "jobs/settings.h"
+
+namespace gramloom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// What of each pixel goes to a file.
+struct Part {
+  fs::path file;
+  std::unique_ptr<ImageRows> rows;
+  int first = 0, channels = 0;
+};
+
+fs::path file_of(const GenerateWork& work, const std::string& map) {
+  if (map.empty()) return work.output;
+  fs::path file = work.output;
+  file.replace_filename(
+      fmt::format("{}_{}{}", file.stem().string(), map, file.extension().string()));
+  return file;
+}
+
+void check_files(const GenerateWork& work, const GeneratorDescription& description) {
+  std::vector<InputFile> read{{model_file(work.params), "is the model"}};
+  if (!work.params.weight_picture.empty())
+    read.push_back({work.params.weight_picture, "has the weights"});
+  const ProtectedFiles inputs(read);
+  inputs.check(work.output);
+  // The maps' names are ours, not the user's: only files of an earlier picture are replaced.
+  for (const GeneratorLayer& layer : description.layers)
+    if (!layer.name.empty()) check_replaced(file_of(work, layer.name), inputs, "gramloom:settings");
+}
+
+Metadata metadata_of(const GenerateWork& work) {
+  Json made_by{{"gramloom", version()},
+               {"size", {work.size.width, work.size.height}},
+               {"tile", to_word(work.tile)},
+               {"seed", work.seed},
+               {"method", method_to_json(work.params, "")}};
+  return {{"gramloom:settings", to_text(made_by, -1, true)}};
+}
+
+std::vector<Part> open_parts(const GenerateWork& work, const GeneratorDescription& description) {
+  std::vector<Part> parts;
+  const auto& layers = description.layers;
+  for (std::size_t i = 0; i < layers.size();) {
+    const GeneratorLayer& layer = layers[i];
+    Part part{file_of(work, layer.name), nullptr, layer.first, 0};
+    // A picture and its alpha are two layers of one name.
+    for (; i < layers.size() && layers[i].name == layer.name; ++i) part.channels += layers[i].count;
+    Encoding encoding;
+    encoding.pixel_type = layer.kind == MapKind::colour ? PixelType::uint8 : PixelType::uint16;
+    if (work.pixel_type) encoding.pixel_type = *work.pixel_type;
+    part.rows = open_image_rows(part.file, work.size, part.channels, encoding, metadata_of(work));
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+void write_rows(std::vector<Part>& parts, const float* pixels, std::size_t count, int channels,
+                int rows) {
+  if (parts.size() == 1) return parts.front().rows->write(pixels, rows);
+  std::vector<float> own;
+  for (Part& part : parts) {
+    own.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      const float* first = pixels + i * static_cast<std::size_t>(channels) + part.first;
+      own.insert(own.end(), first, first + part.channels);
+    }
+    part.rows->write(own.data(), rows);
+  }
+}
+
+}  // namespace
+
+GeneratedFiles generate_picture(const GenerateWork& work, const Control& control) {
+  check_fields(work.params);
+  check_size(work.size);
+  GeneratorModel model;
+  std::vector<Part> parts;
+  Generation wanted;
+  try {
+    model = read_generator(model_file(work.params));
+    wanted = generation_of(work.params, model.description, work.size, work.tile,
+                           Random(static_cast<std::uint64_t>(work.seed)));
+    check_files(work, model.description);
+    parts = open_parts(work, model.description);
+  } catch (const ConfigError&) {
+    throw;
+  } catch (const Error& error) {
+    throw ConfigError("generate: {}", error.what());
+  }
+  const int channels = model.description.channels;
+  generate(
+      model, wanted,
+      [&](const float* pixels, int rows) {
+        write_rows(parts, pixels,
+                   static_cast<std::size_t>(rows) * static_cast<std::size_t>(work.size.width),
+                   channels, rows);
+      },
+      control);
+  GeneratedFiles generated;
+  for (Part& part : parts) {
+    for (const std::string& note : part.rows->finish())
+      generated.notes.push_back(fmt::format("{}: {}", part.file.filename().string(), note));
+    generated.files.push_back(part.file);
+  }
+  return generated;
+}
+
+}  // namespace gramloom
