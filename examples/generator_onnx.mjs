@@ -7,25 +7,17 @@
 import { createRequire } from 'node:module';
 import { readFileSync, writeFileSync } from 'node:fs';
 
-/** What the generator's levels are, coarse to fine: [{noise: channels, border}]. */
-function levelsOf(file) {
+/** What gramloom has written of the generator: {channels, margin, noise: channels of each level}. */
+function descriptionOf(file) {
   const text = readFileSync(file).toString('latin1');
-  const from = text.indexOf('{"channels":', text.lastIndexOf('gramloom'));
-  return JSON.parse(text.slice(from, text.indexOf('}]}', from) + 3)).levels;
+  const from = text.lastIndexOf('{"channels":');
+  return JSON.parse(text.slice(from, text.indexOf(']}', from) + 2));
 }
 
-/** One axis for pixels [0, length): where each level's noise begins and how long it is. */
-function frameOf(levels, length) {
-  let first = 0, end = length;
-  for (let k = levels.length - 1; k > 0; --k) {
-    first = Math.floor((first - 1 - levels[k].border) / 2);
-    end = Math.ceil((end + 1 + levels[k].border) / 2);
-  }
-  const parts = levels.map(({ border }, k) => {
-    if (k > 0) [first, end] = [2 * first + 1 + border, 2 * end - 1 - border];
-    return { first: first - border, length: end - first + 2 * border };
-  });
-  return { parts, skipped: -first };
+/** One axis for pixels [0, length): where the coarsest noise begins, how long it is, what is left out. */
+function frameOf({ margin, noise: levels }, length) {
+  const scale = 2 ** (levels.length - 1), before = Math.ceil(margin / scale);
+  return { first: -before, length: Math.ceil(length / scale) + 2 * before, skipped: before * scale };
 }
 
 /** Four channels of noise: PCG4D. */
@@ -41,18 +33,20 @@ function noise(x, y, seed, group) {
   return [a, b, c, d].map((v) => (v >>> 8) * (2 * Math.sqrt(3) / 16777216) - Math.sqrt(3));
 }
 
-/** Noise of level k as (1, channels, height, width); `wrap`: the level's length, or 0. */
-function noiseOf(k, level, x, y, seed, wrap) {
+/** Noise of level k as a tensor; `wrap`: the level's length where the picture tiles, or 0. */
+function noiseOf(k, channels, across, down, seed, wrap) {
   const place = (i, length) => (length ? ((i % length) + length) % length : i);
-  const values = new Float32Array(level.noise * y.length * x.length);
-  for (let row = 0; row < y.length; ++row)
-    for (let column = 0; column < x.length; ++column)
-      for (let group = 0; group < level.noise / 4; ++group)
-        noise(place(x.first + column, wrap.x), place(y.first + row, wrap.y), seed, 64 * k + group)
-          .forEach((value, i) => {
-            values[((4 * group + i) * y.length + row) * x.length + column] = value;
-          });
-  return values;
+  const [columns, rows] = [across.length << k, down.length << k];
+  const values = new Float32Array(channels * rows * columns);
+  for (let row = 0; row < rows; ++row)
+    for (let column = 0; column < columns; ++column) {
+      const x = place(across.first * 2 ** k + column, wrap.x), y = place(down.first * 2 ** k + row, wrap.y);
+      for (let group = 0; group < channels / 4; ++group)
+        noise(x, y, seed, 64 * k + group).forEach((value, i) => {
+          values[((4 * group + i) * rows + row) * columns + column] = value;
+        });
+    }
+  return new ort.Tensor('float32', values, [1, channels, rows, columns]);
 }
 
 const [file, ...words] = process.argv.slice(2);
@@ -60,15 +54,13 @@ const [width, height, seed, tile] = words.map(Number);
 const output = words[4];
 // From where it is installed: beside this file, or in the folder that we are in.
 const ort = createRequire(`${process.cwd()}/`)('onnxruntime-node');
-const levels = levelsOf(file);
-const [across, down] = [frameOf(levels, width), frameOf(levels, height)];
+const description = descriptionOf(file);
+const [across, down] = [frameOf(description, width), frameOf(description, height)];
 const inputs = {};
-levels.forEach((level, k) => {
-  const share = 2 ** (levels.length - 1 - k);
+description.noise.forEach((channels, k) => {
+  const share = 2 ** (description.noise.length - 1 - k);
   const wrap = { x: tile & 1 ? width / share : 0, y: tile & 2 ? height / share : 0 };
-  const [x, y] = [across.parts[k], down.parts[k]];
-  inputs[`noise_${k}`] = new ort.Tensor('float32', noiseOf(k, level, x, y, seed, wrap),
-    [1, level.noise, y.length, x.length]);
+  inputs[`noise_${k}`] = noiseOf(k, channels, across, down, seed, wrap);
 });
 const session = await ort.InferenceSession.create(file);
 const started = performance.now();

@@ -133,7 +133,7 @@ int NAME_part(float *pixels, int left, int top, int width, int height, int whole
 
 constexpr const char* convolution = R"c(
 /* Eight channels at once: what compilers other than GCC and Clang make of the loop is their affair. */
-#ifdef __GNUC__
+#if defined(__GNUC__) && !defined(GRAMLOOM_NO_VECTORS)
 typedef float Eight __attribute__((vector_size(32), aligned(4), may_alias));
 #define ADD_TIMES(sum, value, weights) (sum) += (value) * *(const Eight *)(weights)
 #define LOAD(sum, values) (sum) = *(const Eight *)(values)

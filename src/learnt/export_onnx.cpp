@@ -115,20 +115,14 @@ class Graph {
     const std::string weights =
         constant({layer.outputs, layer.inputs, layer.kernel, layer.kernel}, layer.weights);
     const std::string bias = constant({layer.outputs}, layer.bias);
-    return node(
-        "Conv", {from, weights, bias},
-        {attribute("kernel_shape", std::vector{layer.kernel, layer.kernel}),
-         attribute("strides", std::vector{1, 1}), attribute("pads", std::vector{0, 0, 0, 0}),
-         attribute("dilations", std::vector{1, 1}), attribute("group", std::uint64_t{1})},
-        output);
+    return node("Conv", {from, weights, bias},
+                {attribute("kernel_shape", std::vector{layer.kernel, layer.kernel}),
+                 attribute("strides", std::vector{1, 1}),
+                 attribute("pads", std::vector(4, layer.kernel / 2)),
+                 attribute("dilations", std::vector{1, 1}), attribute("group", std::uint64_t{1})},
+                output);
   }
-  // Without `border` pixels on all sides.
-  std::string cropped(const std::string& from, int border) {
-    using Numbers = std::vector<std::int64_t>;
-    return node("Slice", {from, constant({2}, Numbers{border, border}),
-                          constant({2}, Numbers{-border, -border}), constant({2}, Numbers{2, 3})});
-  }
-  // Twice as large, linearly, without the pixels that have no neighbour: weights 3/4 and 1/4.
+  // Twice as large, linearly: weights 3/4 and 1/4.
   std::string enlarged(const std::string& from, int channels) {
     constexpr float line[] = {0.25f, 0.75f, 0.75f, 0.25f};
     std::vector<float> weights(static_cast<std::size_t>(channels * channels) * 16, 0.0f);
@@ -139,7 +133,7 @@ class Graph {
     return node(
         "ConvTranspose", {from, constant({channels, channels, 4, 4}, weights)},
         {attribute("kernel_shape", std::vector{4, 4}), attribute("strides", std::vector{2, 2}),
-         attribute("pads", std::vector{2, 2, 2, 2}), attribute("dilations", std::vector{1, 1}),
+         attribute("pads", std::vector{1, 1, 1, 1}), attribute("dilations", std::vector{1, 1}),
          attribute("group", std::uint64_t{1})});
   }
   Message& message() { return graph_; }
@@ -150,10 +144,18 @@ class Graph {
   int constants_ = 0;
 };
 
+// How far from the border the zeros around pictures are seen in the finest one.
+int margin_of(const PlainGenerator& generator) {
+  int margin = 0;
+  for (int k = 0; k < generator.level_count(); ++k)
+    margin = (k == 0 ? 0 : 2 * margin + 1) +
+             static_cast<int>(generator.levels[static_cast<std::size_t>(k)].layers.size());
+  return margin;
+}
+
 std::string add_level(Graph& graph, const PlainGenerator& generator, int k,
                       const std::string& coarser) {
   const PlainLevel& level = generator.levels[static_cast<std::size_t>(k)];
-  const auto border = static_cast<int>(level.layers.size());
   const std::string noise = fmt::format("noise_{}", k);
   std::string enlarged, values = noise;
   if (k > 0) {
@@ -163,10 +165,10 @@ std::string add_level(Graph& graph, const PlainGenerator& generator, int k,
   for (std::size_t i = 0; i < level.layers.size(); ++i) {
     const std::string sum = graph.convolution(values, level.layers[i]);
     const std::string active = graph.node("LeakyRelu", {sum}, {attribute("alpha", leaky_slope)});
-    values = i == 0 ? active : graph.node("Add", {active, graph.cropped(values, 1)});
+    values = i == 0 ? active : graph.node("Add", {active, values});
   }
   const std::string added = graph.convolution(values, level.out);
-  return k == 0 ? added : graph.node("Add", {added, graph.cropped(enlarged, border)});
+  return k == 0 ? added : graph.node("Add", {added, enlarged});
 }
 
 // mean + axes · P, clamped to [low, high]: low + r(x − low), then high − r(high − x), where r is
@@ -193,6 +195,7 @@ std::string documentation(const PlainGenerator& generator) {
                                  channel_names(generator));
   if (!generator.licence.empty())
     text += fmt::format(" Licence of what it has learnt: {}.", generator.licence);
+  const int last = generator.level_count() - 1, margin = margin_of(generator);
   return text + fmt::format(
                     R"(
 Inputs: noise_k, of level k = 0 (coarse) to {} (fine), uniform in [-sqrt 3, sqrt 3), a value for each
@@ -203,25 +206,20 @@ channel c, pixel (x, y) and seed. Any will do; those of gramloom are PCG4D (Jarz
   v ^= v >> 16
   v0 += v1 * v3, v1 += v2 * v0, v2 += v0 * v1, v3 += v1 * v2
 and the noise is floor(v[c mod 4] / 256) * 2 sqrt 3 / 2^24 - sqrt 3.
-Sizes: no convolution has a border, so a level's noise is 2 border_k longer than its picture, on each axis,
-and noise_(k+1) is two shorter than twice that picture. Places: where noise_k begins at place a_k, its
-picture begins at o_k = a_k + border_k, and noise_(k+1) at 2 o_k + 1. For pixels [0, n) of the finest
-level, let o = 0, e = n, and from the finest level to the second o = floor((o - 1 - border_k) / 2),
-e = ceil((e + 1 + border_k) / 2); then noise_0 covers [o - border_0, e + border_0), and what comes out
-before pixel 0 (and after n) is to be left out. A picture whose sides can be halved {} times tiles where
-places wrap at the level's share of them. The channels of noise and border_k are in the metadata.)",
-                    generator.level_count() - 1, noise_groups_per_level,
-                    generator.level_count() - 1);
+Places: noise_0 is n values long from place a on, on each axis, noise_k then 2^k n from place 2^k a on, and
+the output is as long as the last. There are zeros around it: its first and last {} pixels are wrong, and
+to be left out. So for a picture of L pixels from place 0 on, let f = 2^{}, a = -ceil({} / f) and
+n = ceil(L / f) - 2 a, and take L pixels behind the first -a f. A picture whose sides are multiples of f
+tiles where the places of noise_k wrap at its side times 2^k / f.)",
+                    last, noise_groups_per_level, margin, last, margin);
 }
 
 std::string metadata(const PlainGenerator& generator) {
-  Json levels = Json::array();
-  for (const PlainLevel& level : generator.levels)
-    levels.push_back({{"noise", level.noise}, {"border", level.layers.size()}});
-  return to_text(Json{{"channels", generator.channels}, {"levels", levels}});
+  Json noise = Json::array();  // channels of each level
+  for (const PlainLevel& level : generator.levels) noise.push_back(level.noise);
+  return to_text(
+      Json{{"channels", generator.channels}, {"margin", margin_of(generator)}, {"noise", noise}});
 }
-
-int floor_half(int value) { return value >= 0 ? value / 2 : -((1 - value) / 2); }
 
 }  // namespace
 
@@ -244,21 +242,10 @@ std::string export_onnx(const PlainGenerator& generator, const std::string& prog
 }
 
 OnnxFrame onnx_frame(const PlainGenerator& generator, int length) {
-  const auto border = [&](int k) {
-    return static_cast<int>(generator.levels[static_cast<std::size_t>(k)].layers.size());
-  };
-  int first = 0, end = length;
-  for (int k = generator.level_count() - 1; k > 0; --k) {
-    first = floor_half(first - 1 - border(k));
-    end = floor_half(end + 2 + border(k));
-  }
-  OnnxFrame frame;
-  for (int k = 0; k < generator.level_count(); ++k) {
-    if (k > 0) first = 2 * first + 1 + border(k), end = 2 * end - 1 - border(k);
-    frame.levels.push_back({first - border(k), end - first + 2 * border(k)});
-  }
-  frame.skipped = -first;
-  return frame;
+  const int last = generator.level_count() - 1, scale = 1 << last;
+  const int margin = margin_of(generator);
+  const int before = (margin + scale - 1) / scale;
+  return {-before, (length + scale - 1) / scale + 2 * before, before * scale};
 }
 
 }  // namespace gramloom
