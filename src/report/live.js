@@ -76,7 +76,7 @@ let live = null;  // {canvas, gl, file, shaders, header, programs, seed}
 async function startLive(file) {
   if (live?.file === file) return live;
   const shaders = await loadLive(file);
-  const canvas = live?.canvas ?? el('canvas', { class: 'surface' });
+  const canvas = live?.canvas ?? el('canvas', { class: 'live' });
   const gl = canvas.getContext('webgl2', { antialias: false, preserveDrawingBuffer: true });
   if (!gl) throw new Error('this browser has no WebGL 2');
   if (!gl.getExtension('EXT_color_buffer_float')) throw new Error('this browser draws to no float textures');
@@ -156,7 +156,7 @@ function makeLive(width, height, tile, seed) {
 const isLive = (subject) => view.surface === 'live' && Boolean(subject.job?.live);
 
 function drawLiveStage(shown) {
-  return el('div', { id: 'stage', class: 'stage lit', tabindex: '0', 'data-keep': 'stage', role: 'group',
+  return el('div', { id: 'stage', class: 'stage', tabindex: '0', 'data-keep': 'stage', role: 'group',
     'aria-label': `${describe(shown)}, made here and now` },
   el('div', { class: 'lit-place', id: 'live' }, el('p', { class: 'note' }, 'The shaders are compiled …')),
   el('span', { class: 'tag', id: 'live-tag', 'aria-live': 'polite' }, `${view.showB ? 'B' : 'A'} · ${shown.title}`));
@@ -167,6 +167,16 @@ function drawLiveControls() {
   return el('div', { class: 'pair' },
     el('button', { type: 'button', id: 'live-seed', 'data-keep': 'live-seed',
       onclick: () => showLive((live?.seed ?? shown.job.seed) + 1) }, 'another seed'));
+}
+
+/** The largest whole multiple that fits, or the fraction where none does. */
+function fitLive() {
+  if (!live) return;
+  const { canvas } = live, stage = byId('stage');
+  const fits = Math.min(stage.clientWidth / canvas.width, stage.clientHeight / canvas.height);
+  const scale = fits >= 1 ? Math.floor(fits) : fits;
+  canvas.style.width = `${Math.floor(canvas.width * scale)}px`;
+  canvas.style.height = `${Math.floor(canvas.height * scale)}px`;
 }
 
 /** Fills the stage; of the job's own seed, or another. */
@@ -183,6 +193,7 @@ async function showLive(seed) {
     if (Math.max(width, height) > most) throw new Error(`it is larger than ${most} pixels`);
     makeLive(width, height, found.tile, seed ?? own);
     if (place.firstChild !== live.canvas) place.replaceChildren(live.canvas);
+    fitLive();
     byId('live-tag').textContent = `live · seed ${live.seed}`;
   } catch (error) {
     if (place.isConnected) place.replaceChildren(el('p', { class: 'note' }, `It cannot be made live: ${error.message}.`));

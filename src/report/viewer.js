@@ -86,7 +86,7 @@ function drawStage() {
 function fitStage() {
   const stage = byId('stage');
   if (!dialog.open || !stage) return;
-  if (isLive(view.showB ? view.b : view.a)) return;
+  if (isLive(view.showB ? view.b : view.a)) return void fitLive();
   if (view.surface && view.surface !== 'live') return void paintSoon();
   const layers = [...stage.querySelectorAll('.layer[data-width]')];
   const times = view.tiled ? 2 : 1;
@@ -153,7 +153,7 @@ function drawControls() {
       (label) => redraw(() => setLabel(label))),
     el('p', { class: 'keys' }, isLit(shown)
       ? 'drag, or arrow keys: turn · with shift: the light · + − repeat · space flips · b ball · w wall · esc closes'
-      : '← → pictures · ↑ ↓ exemplars · space flips · t 2 × 2 · b ball · w wall · c copy map · esc closes'));
+      : `← → pictures · ↑ ↓ exemplars · space flips · t 2 × 2 · b ball · w wall · ${shown.job?.live ? 'l live · ' : ''}c copy map · esc closes`));
 }
 
 function drawStrip() {

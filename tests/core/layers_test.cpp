@@ -25,12 +25,14 @@ const std::map<std::string, std::set<std::string>> may_include{
     {"classic", {"core", "signal"}},
     {"surface", {"core", "signal", "io"}},
     {"neural", {"core", "signal", "io"}},
+    {"learnt", {"core", "signal", "io"}},
     {"metrics", {"core", "signal"}},
     {"runs", {"core", "io"}},
-    {"report", {"core", "signal", "io", "metrics", "runs"}},
+    {"report", {"core", "signal", "io", "learnt", "metrics", "runs"}},
     {"jobs",
-     {"core", "signal", "io", "procedural", "classic", "neural", "surface", "metrics", "runs"}},
-    {"commands", {"core", "io", "surface", "runs", "jobs", "report"}},
+     {"core", "signal", "io", "procedural", "classic", "neural", "learnt", "train", "surface",
+      "metrics", "runs"}},
+    {"commands", {"core", "io", "learnt", "surface", "runs", "jobs", "report"}},
 };
 
 TEST(Layers, EachFolderIncludesOnlyWhatLiesBelowIt) {
