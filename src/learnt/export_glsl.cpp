@@ -226,7 +226,7 @@ std::string export_glsl(const PlainGenerator& generator, const std::string& prog
   Json levels = Json::array();
   for (const PlainLevel& level : generator.levels)
     levels.push_back({{"border", level.layers.size()}});
-  const Json header{{"format", 1},
+  const Json header{{"format", export_glsl_format},
                     {"program", comment_text(program)},
                     {"title", comment_text(generator.title)},
                     {"licence", comment_text(generator.licence)},

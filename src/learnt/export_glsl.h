@@ -6,10 +6,13 @@
 
 namespace gramloom {
 
+/// Of what follows: other numbers are for other drivers.
+inline constexpr int export_glsl_format = 1;
+
 /// A generator as the fragment shaders of WebGL 2 (GLSL ES 3.00), one text: which pass it is says
 /// PASS. Each writes at most four layers of an array of textures (RGBA32F, four channels a layer),
 /// as every WebGL 2 can. It begins with a comment, whose first line is JSON:
-///   format     1
+///   format     export_glsl_format
 ///   title, licence, channels
 ///   levels     [{border} …], the coarsest first
 ///   textures   {name: {level, border, layers} …}: larger than the level's picture by `border`

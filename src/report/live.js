@@ -70,7 +70,7 @@ function liveProgram(gl, fragment) {
   return program;
 }
 
-let live = null;  // {canvas, gl, file, shaders, header, programs, seed}
+let live = null;  // {canvas, gl, file, header, programs, seed}
 
 /** Of one model at a time: browsers allow few canvases of this kind. */
 async function startLive(file) {
@@ -81,11 +81,13 @@ async function startLive(file) {
   if (!gl) throw new Error('this browser has no WebGL 2');
   if (!gl.getExtension('EXT_color_buffer_float')) throw new Error('this browser draws to no float textures');
   live?.programs.forEach((program) => gl.deleteProgram(program));
+  live = null;
   const header = JSON.parse(shaders.slice(3, shaders.indexOf('\n')));
   const sources = header.passes.map((_, k) => `#version 300 es\n#define PASS ${k}\n${passText(shaders, k)}`);
   const programs = [...sources, showShader].map((source) => liveProgram(gl, source));
   const broken = programs.find((program) => !gl.getProgramParameter(program, gl.LINK_STATUS));
   if (broken) throw new Error(`a shader does not compile: ${gl.getProgramInfoLog(broken)}`);
+  canvas.addEventListener('webglcontextlost', () => { live = null; }, { once: true });
   live = { canvas, gl, file, header, programs, seed: null };
   return live;
 }

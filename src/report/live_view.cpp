@@ -32,12 +32,16 @@ std::optional<fs::path> find_unchanged(const JobRecord& record, const std::strin
   return std::nullopt;
 }
 
-std::string shaders_of(const fs::path& file, const std::vector<double>& weights) {
+// None where they are too long.
+std::optional<std::string> shaders_of(const fs::path& file, const std::vector<double>& weights) {
   const GeneratorModel model = read_generator(file);
   GeneratorParams params;
   params.weights = weights;
   const auto wanted = generation_of(params, model.description, {1, 1}, Tile::none, Random(1));
-  return export_glsl(plain_generator(model, wanted.shares), "gramloom");
+  const PlainGenerator generator = plain_generator(model, wanted.shares);
+  if (generator.weight_count() > live_view_limit / 8) return std::nullopt;  // no need to look
+  std::string shaders = export_glsl(generator, "gramloom");
+  return shaders.size() > live_view_limit ? std::nullopt : std::optional(std::move(shaders));
 }
 
 }  // namespace
@@ -51,19 +55,20 @@ Json live_view(const RunOnDisk& run, const JobOnDisk& job) {
     return nullptr;
   const auto weights = method.value("weights", std::vector<double>());
   const std::string name =
-      hash_of(fmt::format("{} {}", hash, fmt::join(weights, ","))) + ".live.js";
+      hash_of(fmt::format("{} {} {}", export_glsl_format, hash, fmt::join(weights, ","))) +
+      ".live.js";
   const fs::path shown = fs::path("page") / name;
   const Json view{{"file", shown.generic_string()}, {"tile", to_word(tile_of(record.settings))}};
   std::error_code ignored;
   if (fs::is_regular_file(run.folder / shown, ignored)) return view;
   const auto model = find_unchanged(record, method.value("model", ""), hash);
   if (!model) return nullptr;
-  const std::string shaders = shaders_of(*model, weights);
-  if (shaders.size() > live_view_limit) return nullptr;
+  const auto shaders = shaders_of(*model, weights);
+  if (!shaders) return nullptr;
   fs::create_directories((run.folder / shown).parent_path(), ignored);
   write_text(run.folder / shown,
              fmt::format("liveData({}, {});\n", to_text(Json(shown.generic_string()), -1, true),
-                         to_text(Json(shaders), -1, true)));
+                         to_text(Json(*shaders), -1, true)));
   return view;
 }
 

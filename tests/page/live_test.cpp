@@ -22,6 +22,7 @@ const std::string config =
     "[[method]]\nname = 'one'\nkind = 'generator'\nmodel = 'one.safetensors'\n"
     "[[method]]\nname = 'mix'\nkind = 'generator'\nmodel = 'mix.safetensors'\n"
     "weights = [1, 3]\n"
+    "[[method]]\nname = 'large'\nkind = 'generator'\nmodel = 'large.safetensors'\n"
     "[[method]]\nname = 'stone'\nkind = 'procedural'\ntexture = 'pebbles'\n";
 
 class LivePage : public RunInBrowser {
@@ -32,6 +33,7 @@ class LivePage : public RunInBrowser {
     write_generator(folder_ / "one.safetensors",
                     some_generator({{8, 20, 2}, {4, 8, 3}, {4, 6, 1}}));
     write_generator(folder_ / "mix.safetensors", some_generator({{4, 8, 2}, {4, 8, 2}}, 5, 2));
+    write_generator(folder_ / "large.safetensors", some_generator({{4, 128, 3}}));
     write_text(folder_ / "c.toml", config);
     for (const std::string tile : {"none", "both"}) {
       const Outcome outcome = gramloom(
@@ -100,6 +102,12 @@ TEST_F(LivePage, MakesTheFilesPicture) {
     }
 }
 
+TEST_F(LivePage, ShadersThatAreTooLongAreLeftOut) {
+  browser_->open(folder_ / "none/index.html", desk);
+  EXPECT_EQ(js("data.jobs.filter((job) => job.live).map((job) => job.method)"),
+            (Json{"one", "one", "mix", "mix"}));
+}
+
 TEST_F(LivePage, OnlyGeneratorsAreLiveAndTheViewGoesOnBesideOthers) {
   enlarge("none", "procedural/stone/seed1");
   EXPECT_EQ(js("byId('live')"), Json());
@@ -107,6 +115,8 @@ TEST_F(LivePage, OnlyGeneratorsAreLiveAndTheViewGoesOnBesideOthers) {
   EXPECT_EQ(js("[...document.querySelectorAll('.segments button')].some((b) => b.textContent === "
                "'live')"),
             false);
+  browser_->press("ArrowLeft");
+  browser_->press("ArrowLeft");
   browser_->press("ArrowLeft");
   made(2);
   browser_->press("l");
