@@ -13,8 +13,6 @@ namespace {
 
 using dnnl::memory;
 
-constexpr float half_root = 0.70710678f;  // 1 / √2
-
 const dnnl::engine& cpu() {
   static const dnnl::engine engine(dnnl::engine::kind::cpu, 0);
   return engine;
@@ -78,9 +76,6 @@ float* ChannelPlanes::at(int channel, std::size_t pixel) const {
          channel % block;
 }
 
-// h_{i+1} = (h_i + a(C h_i + b)) / √2 is computed as u_{i+1} = u_i + a(C u_i + √2ⁱ⁻¹ b), with
-// h_i = √2^{1−i} u_i: a leaky ReLU of c·x is c times that of x, so that only biases and the last
-// weights change, and one primitive does a whole layer.
 LevelNetwork::LevelNetwork(const GeneratorModel& model, int level, Size size,
                            std::span<const float> shares)
     : model_(model),
@@ -89,51 +84,19 @@ LevelNetwork::LevelNetwork(const GeneratorModel& model, int level, Size size,
       size_(size),
       engine_(cpu()),
       stream_(engine_) {
-  const GeneratorDescription& description = model.description;
-  const GeneratorLevel& shape = description.levels[static_cast<std::size_t>(level)];
-  const std::string name = fmt::format("levels.{}.", level);
-  const auto materials = static_cast<std::size_t>(model.material_count());
-  const auto hidden = static_cast<std::size_t>(shape.hidden);
-  input_ = ChannelPlanes(size, inputs_of(description, level));
-  for (ChannelPlanes& planes : hidden_) planes = ChannelPlanes(size, shape.hidden);
-  output_ = ChannelPlanes(size, description.channels);
-
-  float scale = 1;
-  for (int i = 0; i < shape.layers; ++i) {
-    std::vector<float> weights = model.values(fmt::format("{}layers.{}.weight", name, i));
-    std::vector<float> bias = model.values(fmt::format("{}layers.{}.bias", name, i));
-    if (i > 1) scale /= half_root;
-    if (!mixed_ && materials > 1) {
-      const auto& scales = model.values(fmt::format("{}scales.{}", name, i));
-      const auto& shifts = model.values(fmt::format("{}shifts.{}", name, i));
-      const std::size_t count = weights.size() / hidden;
-      for (std::size_t c = 0; c < hidden; ++c) {
-        const float factor = 1 + mix(scales, hidden, c, shares.data(), materials);
-        for (std::size_t j = 0; j < count; ++j) weights[c * count + j] *= factor;
-        bias[c] = factor * bias[c] + mix(shifts, hidden, c, shares.data(), materials);
-      }
-    }
-    for (float& value : bias) value *= scale;
-    const int inputs = i == 0 ? input_.channels : shape.hidden;
-    layers_.push_back(make_layer(weights, bias, inputs, shape.hidden, 3, !mixed_, i > 0));
-    layers_.back().bias_scale = scale;
-  }
-  if (shape.layers > 1) scale /= half_root;
-  std::vector<float> weights = model.values(name + "out.weight");
-  std::vector<float> bias = model.values(name + "out.bias");
-  for (float& value : weights) value /= scale;
-  if (!mixed_ && materials > 1) {
-    const auto& shifts = model.values(name + "out_shifts");
-    for (std::size_t c = 0; c < bias.size(); ++c)
-      bias[c] += mix(shifts, bias.size(), c, shares.data(), materials);
-  }
-  layers_.push_back(make_layer(weights, bias, shape.hidden, description.channels, 1, false, false));
+  const PlainLevel plain = plain_level(model, level, shares);
+  input_ = ChannelPlanes(size, plain.layers.front().inputs);
+  for (ChannelPlanes& planes : hidden_) planes = ChannelPlanes(size, plain.out.inputs);
+  output_ = ChannelPlanes(size, plain.out.outputs);
+  for (const PlainLayer& layer : plain.layers)
+    layers_.push_back(make_layer(layer, !mixed_, !layers_.empty()));
+  layers_.push_back(make_layer(plain.out, false, false));
 }
 
-LevelNetwork::Layer LevelNetwork::make_layer(const std::vector<float>& weights,
-                                             const std::vector<float>& bias, int inputs,
-                                             int outputs, int kernel, bool activated,
+LevelNetwork::Layer LevelNetwork::make_layer(const PlainLayer& given, bool activated,
                                              bool residual) {
+  const int inputs = given.inputs, outputs = given.outputs, kernel = given.kernel;
+  const std::vector<float>&weights = given.weights, &bias = given.bias;
   dnnl::post_ops after;
   if (activated) append_relu(after, leaky_slope);
   if (activated && residual)
@@ -157,8 +120,8 @@ LevelNetwork::Layer LevelNetwork::make_layer(const std::vector<float>& weights,
               memory(plain({in_blocks(outputs)}, memory::format_tag::x), engine_),
               memory(made.scratchpad_desc(), engine_)};
   std::vector<float> padded = in_whole_blocks(weights, inputs, outputs, kernel * kernel);
-  memory given(plain(shape, memory::format_tag::oihw), engine_, padded.data());
-  dnnl::reorder(given, layer.weights).execute(stream_, given, layer.weights);
+  memory as_given(plain(shape, memory::format_tag::oihw), engine_, padded.data());
+  dnnl::reorder(as_given, layer.weights).execute(stream_, as_given, layer.weights);
   stream_.wait();
   std::memset(layer.bias.get_data_handle(), 0, layer.bias.get_desc().get_size());
   if (activated || kernel == 1)  // else activate() adds it
@@ -189,7 +152,7 @@ void LevelNetwork::activate(int layer, const ChannelPlanes& values, const Channe
       materials > 1 ? model_.values(fmt::format("{}scales.{}", name, layer)) : none;
   const auto& shifts =
       materials > 1 ? model_.values(fmt::format("{}shifts.{}", name, layer)) : none;
-  const float bias_scale = layers_[static_cast<std::size_t>(layer)].bias_scale;
+  const float bias_scale = residual_scale(layer);
   const auto pixels =
       static_cast<std::size_t>(size_.width) * static_cast<std::size_t>(size_.height);
   const int block = values.block;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/image.h"
-#include "learnt/generator_model.h"
+#include "learnt/plain_generator.h"
 
 namespace gramloom {
 
@@ -43,10 +43,8 @@ class LevelNetwork {
   struct Layer {
     dnnl::convolution_forward convolution;
     dnnl::memory weights, bias, scratchpad;
-    float bias_scale = 1;  // of the values before: see the .cpp
   };
-  Layer make_layer(const std::vector<float>& weights, const std::vector<float>& bias, int inputs,
-                   int outputs, int kernel, bool activated, bool residual);
+  Layer make_layer(const PlainLayer& given, bool activated, bool residual);
   void execute(const Layer& layer, const ChannelPlanes& from, const ChannelPlanes& to,
                const ChannelPlanes* added);
   void activate(int layer, const ChannelPlanes& values, const ChannelPlanes* added,

@@ -8,6 +8,7 @@
 #include "io/field_values.h"
 #include "io/json_fields.h"
 #include "metrics/map_scores.h"
+#include "report/live_view.h"
 #include "report/preview.h"
 #include "report/surface_view.h"
 #include "runs/job_files.h"
@@ -219,6 +220,17 @@ Json view_of(const RunOnDisk& run, const JobOnDisk& job, const ShownExemplar& so
   }
 }
 
+// What makes a job's picture live, or null.
+Json live_of(const RunOnDisk& run, const JobOnDisk& job, Json& trouble) {
+  if (!is_finished(job.record, (run.folder / job.name).parent_path())) return nullptr;
+  try {
+    return live_view(run, job);
+  } catch (const std::exception& error) {
+    trouble.push_back(message_of(error));
+    return nullptr;
+  }
+}
+
 Json job_to_json(const RunOnDisk& run, const JobOnDisk& job, const ShownExemplar& source,
                  Json& trouble) {
   const JobRecord& record = job.record;
@@ -241,6 +253,7 @@ Json job_to_json(const RunOnDisk& run, const JobOnDisk& job, const ShownExemplar
           {"machine", to_json_value(record.machine)},
           {"pictures", pictures_of(run, job, source, trouble)},
           {"view", view_of(run, job, source, trouble)},
+          {"live", live_of(run, job, trouble)},
           {"copy_map", file_in_folder(run, record.copy_map)},
           {"trace", job.trace.rows.empty() ? Json() : thin_trace(job.trace, trace_points)}};
 }

@@ -17,7 +17,8 @@ namespace gramloom {
 ///                origin {config, set, threads, edited: whether the config has changed since},
 ///                pictures [{label, file} …]: the texture, then its maps,
 ///                view: script with copies of them for the lit view (report/surface_view.h), or
-///                null; exemplars have one, too, trace {steps, seconds, loss} or null} …]
+///                null; exemplars have one, too,
+///                live {file, tile}: script that makes it anew (report/live_view.h), or null, trace {steps, seconds, loss} or null} …]
 ///   diversity  [{exemplar, method, value} …]
 /// Makes previews of pictures that browsers do not show (see shown_file). A picture that is missing
 /// or broken is left out and named in `trouble`.

@@ -1,7 +1,7 @@
 // One picture enlarged: flipped with any other, tiled, its copy map, its settings and its command.
 
 const view = { a: null, b: null, showB: false, label: 'picture', tiled: false,
-  surface: null };  // 'ball', 'wall': lit, in place of the picture
+  surface: null };  // 'ball', 'wall': lit; 'live': made anew; in place of the picture
 const dialog = byId('viewer');
 
 /** The picture that stands in for `subject` in another exemplar's row: the same method and seed. */
@@ -73,7 +73,8 @@ function layer(subject, hidden) {
 
 function drawStage() {
   const shown = view.showB ? view.b : view.a;
-  if (view.surface && surfaceFile(shown)) return drawSurfaceStage(shown);
+  if (isLive(shown)) return drawLiveStage(shown);
+  if (isLit(shown)) return drawSurfaceStage(shown);
   return el('div', { id: 'stage', class: 'stage', tabindex: '0', 'data-keep': 'stage', onclick: flip,
     'aria-label': `${describe(shown)}. Space flips`, role: 'group' },
   layer(view.a, view.showB), view.b && layer(view.b, !view.showB),
@@ -85,7 +86,8 @@ function drawStage() {
 function fitStage() {
   const stage = byId('stage');
   if (!dialog.open || !stage) return;
-  if (view.surface) return void paintSoon();
+  if (isLive(view.showB ? view.b : view.a)) return void fitLive();
+  if (view.surface && view.surface !== 'live') return void paintSoon();
   const layers = [...stage.querySelectorAll('.layer[data-width]')];
   const times = view.tiled ? 2 : 1;
   const width = Math.max(...layers.map((node) => Number(node.dataset.width)), 1) * times;
@@ -140,15 +142,18 @@ function drawControls() {
       surfaceFile(shown) && ['ball', 'wall'].map((shape) => button(shape, view.surface === shape,
         shape === 'ball' ? 'b: on a lit ball' : 'w: as a lit wall',
         () => { view.surface = view.surface === shape ? null : shape; })),
+      shown.job?.live && button('live', view.surface === 'live', 'l: made anew, in this browser',
+        () => { view.surface = view.surface === 'live' ? null : 'live'; }),
       labels.length > 1 && labels.length <= 5 && labels.map((label) => button(label,
         label === view.label && !view.surface,
         label === 'copy map' ? 'c: where in the exemplar each pixel came from' : null, () => setLabel(label)))),
-    view.surface && surfaceFile(shown) && el('div', { class: 'pair', id: 'surface-controls' }),
+    isLit(shown) && el('div', { class: 'pair', id: 'surface-controls' }),
+    isLive(shown) && drawLiveControls(),
     labels.length > 5 && choice('Show', labels.map((label) => [label, label]), view.label,
       (label) => redraw(() => setLabel(label))),
-    el('p', { class: 'keys' }, view.surface
+    el('p', { class: 'keys' }, isLit(shown)
       ? 'drag, or arrow keys: turn · with shift: the light · + − repeat · space flips · b ball · w wall · esc closes'
-      : '← → pictures · ↑ ↓ exemplars · space flips · t 2 × 2 · b ball · w wall · c copy map · esc closes'));
+      : `← → pictures · ↑ ↓ exemplars · space flips · t 2 × 2 · b ball · w wall · ${shown.job?.live ? 'l live · ' : ''}c copy map · esc closes`));
 }
 
 function drawStrip() {
@@ -179,16 +184,17 @@ function drawViewer() {
       drawDetails(shown)));
   setAddress(`#view=${encodeURIComponent(view.a.id)}`);
   showSurface();
+  showLive();
 }
 
 function onKey(event) {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
   const target = event.target.tagName;
   if (target === 'SELECT' || target === 'TEXTAREA' || target === 'INPUT' || event.target.id === 'settings') return;
-  if (view.surface && event.target.id === 'stage' && surfaceKey(event)) return;
+  if (isLit(view.showB ? view.b : view.a) && event.target.id === 'stage' && surfaceKey(event)) return;
   const lit = (shape) => () => redraw(() => { view.surface = view.surface === shape ? null : shape; });
   const actions = {
-    b: lit('ball'), w: lit('wall'),
+    b: lit('ball'), w: lit('wall'), l: lit('live'),
     ArrowLeft: () => step(-1), ArrowRight: () => step(1),
     ArrowUp: () => stepExemplar(-1), ArrowDown: () => stepExemplar(1),
     f: flip, t: () => redraw(() => { view.tiled = Boolean(view.surface) || !view.tiled; view.surface = null; }),

@@ -6,6 +6,8 @@
 
 #include "cli/workspace.h"
 #include "io/json_text.h"
+#include "learnt/model_file.h"
+#include "learnt/some_generator.h"
 
 namespace gramloom {
 namespace {
@@ -155,6 +157,78 @@ TEST_F(ExportCommand, ADamagedPictureDoesNotStopTheOthers) {
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.errors, HasSubstr("it's 100% #1/h/seed1: "));
   EXPECT_EQ(outcome.output, "x/" + job_ + ".gltf\n");
+}
+
+class ExportOfModels : public Workspace {
+ protected:
+  ExportOfModels() {
+    write_generator(folder_ / "one.safetensors", some_generator({{4, 8, 1}}));
+    write_generator(folder_ / "mix.safetensors", some_generator({{4, 8, 1}}, 3, 2));
+  }
+};
+
+TEST_F(ExportOfModels, EachTargetIsAFileAndSaysItsName) {
+  for (const std::string target : {"c", "glsl", "onnx"}) {
+    const Outcome outcome =
+        run({"export", "one.safetensors", "--target", target, "--output", "it." + target});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+    EXPECT_EQ(outcome.output, "it." + target + "\n");
+  }
+  EXPECT_THAT(file("it.c"), HasSubstr("int it_generate("));
+  EXPECT_THAT(file("it.glsl"), HasSubstr("#if PASS == 0"));
+  EXPECT_THAT(file("it.onnx"), HasSubstr("noise_0"));
+  ASSERT_EQ(run({"export", "one.safetensors", "--target", "c", "--output", "1 2.c"}).exit_code, 0);
+  EXPECT_THAT(file("1 2.c"), HasSubstr("int texture_1_2_generate("));
+}
+
+TEST_F(ExportOfModels, WeightsMix) {
+  const auto exported = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"export", "mix.safetensors", "--target", "c", "--output", "m.c"};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(run(words).exit_code, 0);
+    return file("m.c");
+  };
+  EXPECT_EQ(exported({}), exported({"--weights", "1,0"}));
+  EXPECT_EQ(exported({"--weights", "1,3"}), exported({"--weights", "0.25,0.75"}));
+  EXPECT_NE(exported({}), exported({"--weights", "1,3"}));
+  EXPECT_THAT(exported({"--weights", "1,3"}), HasSubstr("material 0 0.25, material 1 0.75"));
+}
+
+TEST_F(ExportOfModels, RefusesInOneLine) {
+  write_text(folder_ / "text.safetensors", "no tensors");
+  write_tensors(folder_ / "other.safetensors", {{"a", {{1}, {1.0f}}}});
+  write_tensors(folder_ / "pose.safetensors", {{"a", {{1}, {1.0f}}}},
+                {{"gramloom", R"({"version":1,"kind":"inference"})"}});
+  GeneratorModel lacking = some_generator({{4, 8, 1}});
+  lacking.tensors.erase("colours.low");
+  write_generator(folder_ / "lacking.safetensors", lacking);
+  const std::vector<std::tuple<std::vector<std::string>, int, std::string>> cases{
+      {{"nowhere.safetensors", "--target", "c", "--output", "x"}, 2, "nowhere.safetensors"},
+      {{"nothing", "--target", "c", "--output", "x"}, 2, "unknown model 'nothing'"},
+      {{"text.safetensors", "--target", "c", "--output", "x"}, 2, "text.safetensors"},
+      {{"other.safetensors", "--target", "glsl", "--output", "x"}, 2, "no model that gramloom"},
+      {{"pose.safetensors", "--target", "onnx", "--output", "x"}, 2, "of kind 'inference'"},
+      {{"lacking.safetensors", "--target", "c", "--output", "x"}, 2, "lacks the tensor"},
+      {{"one.safetensors", "--target", "gltf", "--output", "x"}, 2, "c, glsl, onnx"},
+      {{"one.safetensors", "--target", "obj", "--output", "x"}, 2, "--target"},
+      {{".", "--target", "c", "--output", "x"}, 2, "is a folder"},
+      {{"one.safetensors", "--target", "c", "--only", "a", "--output", "x"}, 2, "--only"},
+      {{"mix.safetensors", "--target", "c", "--weights", "1,2,3", "--output", "x"}, 2, "weights"},
+      {{"mix.safetensors", "--target", "c", "--weights", "0,0", "--output", "x"}, 2, "weights"},
+      {{"mix.safetensors", "--target", "c", "--weights", "-1,2", "--output", "x"}, 2, "weights"},
+      {{"one.safetensors", "--target", "c", "--output", "one.safetensors"}, 2, "the model itself"},
+      {{"one.safetensors", "--target", "c", "--output", "no/x"}, 1, "no/x"}};
+  for (const auto& [arguments, code, message] : cases) {
+    std::vector<std::string> words{"export"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.exit_code, code) << message << outcome.errors;
+    EXPECT_THAT(outcome.errors, HasSubstr(message));
+    EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "x"));
+  EXPECT_EQ(run({"export", "one.safetensors", "--target", "c", "--output", "y.c"}).exit_code, 0)
+      << "the model is as it was";
 }
 
 }  // namespace

@@ -29,11 +29,11 @@ const std::map<std::string, std::set<std::string>> may_include{
     {"train", {"core", "signal", "io", "neural", "learnt"}},
     {"metrics", {"core", "signal"}},
     {"runs", {"core", "io"}},
-    {"report", {"core", "signal", "io", "metrics", "runs"}},
+    {"report", {"core", "signal", "io", "learnt", "metrics", "runs"}},
     {"jobs",
      {"core", "signal", "io", "procedural", "classic", "neural", "learnt", "train", "surface",
       "metrics", "runs"}},
-    {"commands", {"core", "io", "surface", "runs", "jobs", "report"}},
+    {"commands", {"core", "io", "learnt", "surface", "runs", "jobs", "report"}},
 };
 
 TEST(Layers, EachFolderIncludesOnlyWhatLiesBelowIt) {

@@ -9,10 +9,14 @@
 #include "core/error.h"
 #include "io/text_file.h"
 #include "learnt/model_file.h"
-#include "some_generator.h"
+#include "learnt/some_generator.h"
 
 namespace gramloom {
 namespace {
+
+GeneratorModel three_levels(int materials = 1, int channels = 3) {
+  return some_generator({{8, 16, 3}, {4, 24, 2}, {4, 8, 1}}, channels, materials);
+}
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
@@ -31,7 +35,7 @@ class GeneratorFile : public testing::Test {
 };
 
 TEST_F(GeneratorFile, ComesBackAsItWas) {
-  GeneratorModel model = some_generator(2, 4);
+  GeneratorModel model = three_levels(2, 4);
   model.description.materials[1] = {"moss", "0123", "CC0"};
   model.description.recipe = {{"steps", 3}};
   write_generator(file_, model);
@@ -42,7 +46,7 @@ TEST_F(GeneratorFile, ComesBackAsItWas) {
 }
 
 TEST_F(GeneratorFile, OfANewerVersion) {
-  const GeneratorModel model = some_generator();
+  const GeneratorModel model = three_levels();
   Json json{{"version", 99}};
   json.update(to_json_value(model.description));
   write_tensors(file_, model.tensors, {{"gramloom", to_text(json)}});
@@ -62,14 +66,14 @@ TEST_F(GeneratorFile, ThatIsNone) {
 }
 
 TEST_F(GeneratorFile, WithANumberThatIsNone) {
-  GeneratorModel model = some_generator();
+  GeneratorModel model = three_levels();
   model.tensors["levels.1.out.bias"].values[0] = std::numeric_limits<float>::quiet_NaN();
   write_generator(file_, model);
   expect_refused("'levels.1.out.bias' holds a value that is not finite");
 }
 
 TEST_F(GeneratorFile, OfOtherChannels) {
-  GeneratorModel model = some_generator();
+  GeneratorModel model = three_levels();
   model.description.channels = 1;
   model.description.layers[0].count = 1;
   write_generator(file_, model);
@@ -77,7 +81,7 @@ TEST_F(GeneratorFile, OfOtherChannels) {
 }
 
 TEST_F(GeneratorFile, ThatLacksATensor) {
-  GeneratorModel model = some_generator();
+  GeneratorModel model = three_levels();
   model.tensors.erase("levels.0.layers.1.bias");
   write_generator(file_, model);
   expect_refused("lacks the tensor 'levels.0.layers.1.bias'");
