@@ -4,10 +4,13 @@
 
 #include "core/variants.h"
 #include "io/field_values.h"
+#include "io/models_folder.h"
 #include "jobs/memory.h"
 #include "jobs/progress_bar.h"
 #include "jobs/simulation.h"
 #include "jobs/text_table.h"
+#include "learnt/generator_model.h"
+#include "learnt/model_file.h"
 #include "metrics/map_scores.h"
 #include "neural/network/network_description.h"
 #include "surface/maps.h"
@@ -130,6 +133,27 @@ std::string list_networks() {
   for (const auto& file : known_networks())
     rows.push_back({file.stem().string(), read_network(file).summary});
   return text_table(rows, "") + "\n";
+}
+
+std::string list_models() {
+  std::string text;
+  for_each_alternative<ModelRecipe>([&]<class Recipe>(std::type_identity<Recipe>) {
+    text += fmt::format("A [[model]] of kind = \"{}\", {}, has:\n", Recipe::kind, Recipe::summary);
+    text += text_table(parameter_rows<Recipe>(), "  ") + "\n";
+  });
+  std::vector<Row> rows;
+  for (const auto& file : models_in_folder(".safetensors")) {
+    const std::string kind = model_kind(file);
+    if (kind != "generator") {
+      rows.push_back({file.stem().string(), kind, ""});
+      continue;
+    }
+    std::vector<std::string> materials;
+    for (const GeneratorMaterial& material : read_generator_description(file).materials)
+      materials.push_back(material.name);
+    rows.push_back({file.stem().string(), kind, fmt::format("of {}", fmt::join(materials, ", "))});
+  }
+  return text + "Trained models that come with gramloom:\n" + text_table(rows, "  ") + "\n";
 }
 
 std::string job_table(const Config& config, const Plan& plan) {

@@ -19,6 +19,8 @@ std::string list_direction();
 std::string list_patterns();
 /// The network descriptions of the models folder, by the name that a config uses.
 std::string list_networks();
+/// What a model to train has, and the trained models of the models folder.
+std::string list_models();
 
 /// The selected jobs with their estimated memory and time, and what keeps one from running.
 std::string job_table(const Config& config, const Plan& plan);

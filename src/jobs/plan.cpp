@@ -218,6 +218,7 @@ Plan make_plan(const Config& config, const std::string& only) {
     }
     plan.jobs.push_back(std::move(planned));
   }
+  if (plan.jobs.empty()) return plan;  // there are only models to train
   if (std::none_of(plan.jobs.begin(), plan.jobs.end(),
                    [](const auto& planned) { return planned.selected; }))
     throw ConfigError(

@@ -61,6 +61,13 @@ void set_trainable(torch::nn::Module& module, bool trainable) {
   for (at::Tensor& parameter : module.parameters()) parameter.set_requires_grad(trainable);
 }
 
+// Not zero: what has no part in a step stays as it is, whatever momentum it has, and so after a
+// resume too.
+void forget_gradients(torch::optim::Adam& optimiser) {
+  for (auto& group : optimiser.param_groups())
+    for (at::Tensor& parameter : group.params()) parameter.mutable_grad() = at::Tensor();
+}
+
 bool same_shape(const Discriminator& a, const Discriminator& b) {
   const auto of_a = a->parameters(), of_b = b->parameters();
   return std::equal(
@@ -148,7 +155,7 @@ at::Tensor GeneratorStage::believed(int material, const LevelPictures& made,
                             made.coarser.defined() ? made.coarser.detach() : made.coarser};
   const at::Tensor loss = at::relu(1 - judged(material, real, false)).mean() +
                           at::relu(1 + judged(material, fixed, wraps)).mean();
-  adversary_optimiser_->zero_grad();
+  forget_gradients(*adversary_optimiser_);
   loss.backward();
   adversary_optimiser_->step();
   latest_[2] = loss.item<float>();
@@ -248,7 +255,7 @@ std::vector<Term> GeneratorStage::step(int step) {
   const bool reconstructs = reconstruction_ > 0 && turn % 2 == 1;
   const at::Tensor loss =
       reconstructs ? reconstructed(material, patch_size) : generated(material, patch_size, pooled);
-  optimiser_->zero_grad();
+  forget_gradients(*optimiser_);
   loss.backward();
   torch::nn::utils::clip_grad_norm_(parameters_, 1.0);
   optimiser_->step();

@@ -52,8 +52,10 @@ LevelNetImpl::LevelNetImpl(const GeneratorDescription& description, int level) {
   register_module("scales", scales);
   register_module("shifts", shifts);
   for (int i = 0; i < shape.layers; ++i) {
-    scales->append(0.1 * torch::randn({materials, shape.hidden}));
-    shifts->append(0.1 * torch::randn({materials, shape.hidden}));
+    for (auto& list : {&scales, &shifts}) {
+      const at::Tensor values = 0.1 * at::randn({materials, shape.hidden});
+      (*list)->append(values.set_requires_grad(true));  // a list asks for no gradients itself
+    }
   }
   out_shifts = register_parameter("out_shifts", torch::zeros({materials, description.channels}));
 }

@@ -61,7 +61,8 @@ class ByHand {
       for (std::size_t i = 0; i < static_cast<std::size_t>(image.channels); ++i)
         sum += model_.values("colours.axes")[c * static_cast<std::size_t>(image.channels) + i] *
                last.pixels[first + i];
-      image.pixels[p] = std::clamp(sum, 0.0f, 1.0f);
+      image.pixels[p] =
+          std::clamp(sum, model_.values("colours.low")[c], model_.values("colours.high")[c]);
     }
     return image;
   }

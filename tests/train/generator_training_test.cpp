@@ -35,13 +35,13 @@ GeneratorLesson lesson(int materials = 1) {
   lesson.recipe.hidden = {8};
   lesson.recipe.layers = {2};
   lesson.recipe.noise = {4};
-  lesson.recipe.steps = {30, 14};
+  lesson.recipe.steps = {12, 8};
   lesson.recipe.batch = {2, 1};
   lesson.recipe.crop = {48};
   lesson.recipe.directions = 8;
   lesson.recipe.adversary_hidden = {4};
   lesson.recipe.adversary_layers = {2};
-  lesson.recipe.sample_every = 10;
+  lesson.recipe.sample_every = 5;
   lesson.description.layers = {{"", MapKind::colour, 0, 3, GreenAxis::up}};
   for (int m = 0; m < materials; ++m) {
     lesson.exemplars.push_back(spots(64, m == 0 ? 0.5 : 1.1));
@@ -62,7 +62,7 @@ TEST(GeneratorTraining, LowersADistanceThatItDoesNotSee) {
     return std::log(sum / (image.height * (image.width - 1.0)) + 1e-12);
   };
   GeneratorLesson task = lesson();
-  task.recipe.steps = {150, 100};
+  task.recipe.steps = {60, 50};
   const double goal = roughness(task.exemplars.front());
   std::vector<double> scores;
   const GeneratorModel model = train_generator(task, {}, [&](const TrainingState& state) {
@@ -83,7 +83,7 @@ TEST(GeneratorTraining, GoesOnToTheSameBytes) {
   for (const int materials : {1, 2}) {
     const GeneratorLesson task = lesson(materials);
     const GeneratorModel whole = train_generator(task, {}, never);
-    for (const int stop : {7, 30, 37}) {
+    for (const int stop : {5, 12, 15}) {
       const auto file = std::filesystem::temp_directory_path() / "training_test.checkpoint";
       std::filesystem::remove(file);
       Control control;
@@ -98,7 +98,7 @@ TEST(GeneratorTraining, GoesOnToTheSameBytes) {
       };
       const GeneratorModel resumed = train_generator(task, control, never);
       EXPECT_EQ(first, stop + 1);
-      EXPECT_EQ(resumed.tensors, whole.tensors) << stop;
+      EXPECT_TRUE(resumed.tensors == whole.tensors) << stop;
       std::filesystem::remove(file);
     }
   }

@@ -1,0 +1,121 @@
+// `gramloom train` and `gramloom generate` from the command line.
+#include <gmock/gmock.h>
+
+#include "cli/workspace.h"
+#include "learnt/generator_model.h"
+
+namespace gramloom {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class TrainCommand : public Workspace {
+ protected:
+  // A training of two levels that takes a second.
+  void write_config(const std::string& more = "", const std::string& exemplar = "") {
+    Image spots(64, 64, 3), rings(64, 64, 3);
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 64; ++x)
+        for (int c = 0; c < 3; ++c) {
+          const double u = x * 0.5, v = y * 0.4;
+          spots.at(x, y)[c] = static_cast<float>(0.5 + 0.3 * std::sin(u) * std::sin(v) - 0.05 * c);
+          rings.at(x, y)[c] = static_cast<float>(0.4 + 0.2 * std::sin(2 * u + v) + 0.05 * c);
+        }
+    write_image(folder_ / "spots.png", spots, {});
+    write_image(folder_ / "rings.png", rings, {});
+    write_text(folder_ / "t.toml",
+               "size = [64, 64]\ntile = 'both'\n"
+               "[[exemplar]]\nname = 'spots'\nimage = 'spots.png'\nlicence = 'CC0'\n" +
+                   exemplar +
+                   "[[model]]\nname = 'small'\nkind = 'generator'\ncoarsest_side = 32\n"
+                   "hidden = [8]\nlayers = [2]\nnoise = [4]\nsteps = [40, 30]\nbatch = [2, 1]\n"
+                   "directions = 8\nadversary_hidden = [4]\nadversary_layers = [2]\n"
+                   "sample_every = 20\n" +
+                   more);
+  }
+};
+
+TEST_F(TrainCommand, LeavesAModelAndItsTextures) {
+  write_config();
+  const Outcome outcome = run({"train", "t.toml"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const fs::path out = folder_ / "out/t";
+  for (const char* file :
+       {"models/spots_small.safetensors", "models/spots_small.csv", "models/spots_small_000020.png",
+        "spots/small/seed1.png", "index.html", "scores.csv"})
+    EXPECT_TRUE(fs::exists(out / file)) << file;
+  EXPECT_FALSE(fs::exists(out / "models/spots_small.checkpoint"));
+  const GeneratorDescription description =
+      read_generator_description(out / "models/spots_small.safetensors");
+  EXPECT_EQ(description.materials.at(0).name, "spots");
+  EXPECT_EQ(description.materials.at(0).licence, "CC0");
+  EXPECT_EQ(description.levels.size(), 2u);
+  // It is kept, and its texture made again, by `generate` too.
+  const Outcome again = run({"train", "t.toml", "--resume"});
+  EXPECT_THAT(again.errors, HasSubstr("trained before"));
+  const Outcome generated = run({"generate", "out/t/models/spots_small.safetensors", "--size", "64",
+                                 "--tile", "both", "--output", "g.png", "--quiet"});
+  ASSERT_EQ(generated.exit_code, 0) << generated.errors;
+  EXPECT_EQ(read_image(folder_ / "g.png").image, read_image(out / "spots/small/seed1.png").image);
+}
+
+TEST_F(TrainCommand, ABlendIsEachOfItsMaterials) {
+  write_config("blend = true\n", "[[exemplar]]\nname = 'rings'\nimage = 'rings.png'\n");
+  const Outcome outcome = run({"train", "t.toml", "--quiet"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const auto image = [&](const char* file) { return read_image(folder_ / file).image; };
+  const auto mean = [](const Image& picture, std::size_t channel) {
+    double sum = 0;
+    for (std::size_t i = channel; i < picture.pixels.size(); i += 3) sum += picture.pixels[i];
+    return sum / (static_cast<double>(picture.pixels.size()) / 3);
+  };
+  // Each is nearer to its own mean colours than to the other's.
+  const Image spots = image("spots.png"), rings = image("rings.png");
+  for (const bool first : {true, false}) {
+    const Image made = image(first ? "out/t/spots/small/seed1.png" : "out/t/rings/small/seed1.png");
+    double own = 0, other = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      own += std::abs(mean(made, c) - mean(first ? spots : rings, c));
+      other += std::abs(mean(made, c) - mean(first ? rings : spots, c));
+    }
+    EXPECT_LT(own, other);
+  }
+}
+
+TEST_F(TrainCommand, OneThatFailsDoesNotStopTheOthers) {
+  write_config("", "[[exemplar]]\nname = 'tiny'\nimage = 'tiny.png'\n");
+  write_image(folder_ / "tiny.png", Image(5, 5, 3, 0.5f), {});
+  const Outcome outcome = run({"train", "t.toml", "--quiet"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.errors, HasSubstr("tiny_small: failed: the exemplar is too small"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/t/spots/small/seed1.png"));
+}
+
+TEST_F(TrainCommand, SaysWhatIsWrongInOneLine) {
+  const auto expect = [&](std::vector<std::string> words, const std::string& why) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.exit_code, 2) << why;
+    EXPECT_THAT(outcome.errors, HasSubstr(why));
+    EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+  };
+  write_config("", "");
+  expect({"run", "t.toml"}, "a [[model]] is for 'gramloom train'");
+  expect({"train", "e.toml"}, "e.toml");
+  expect({"train", "t.toml", "--set", "model.small.noise=[5]"}, "noise = 5: allowed are multiples");
+  expect({"train", "t.toml", "--set", "model.small.exemplars=['moss']"},
+         "no exemplar is called 'moss'");
+  expect({"train", "t.toml", "--set", "model.small.blend=true"}, "is of 2 to 8 exemplars");
+  expect({"train", "t.toml", "--set", "model.small.kind='gan'"}, "kind");
+  expect({"generate", "t.toml", "--size", "8", "--output", "g.png"}, "t.toml");
+  expect({"generate", "moss", "--size", "8", "--output", "g.png"}, "unknown model 'moss'");
+  expect({"generate", "pebbles", "--size", "8x", "--output", "g.png"}, "needed is WIDTHxHEIGHT");
+  expect({"generate", "pebbles", "--size", "8", "--output", "g.png", "--weights", "1,2"},
+         "2 numbers are given, the model has 1 materials");
+  fs::create_directories(folder_ / "foreign/models");
+  write_text(folder_ / "foreign/models/spots_small.safetensors", "mine");
+  expect({"train", "t.toml", "--output", "foreign"}, "which no training of gramloom made");
+}
+
+}  // namespace
+}  // namespace gramloom
