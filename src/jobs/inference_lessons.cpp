@@ -64,7 +64,9 @@ void write_sheet(const fs::path& file, const std::vector<std::vector<Image>>& ro
     }
     return all;
   }();
-  Image sheet(columns * first.width, static_cast<int>(rows.size()) * first.height, channels);
+  constexpr int gap = 2;
+  const int wide = first.width + gap, high = first.height + gap;
+  Image sheet(columns * wide - gap, static_cast<int>(rows.size()) * high - gap, channels, 1.0f);
   for (std::size_t row = 0; row < rows.size(); ++row)
     for (int column = 0; column < columns; ++column) {
       const Image& picture = rows[row][static_cast<std::size_t>(column)];
@@ -73,7 +75,7 @@ void write_sheet(const fs::path& file, const std::vector<std::vector<Image>>& ro
           for (int c = 0; c < channels; ++c) {
             const auto channel = static_cast<std::size_t>(c);
             const float width = range.high[channel] - range.low[channel];
-            sheet.at(column * first.width + x, static_cast<int>(row) * first.height + y)[c] =
+            sheet.at(column * wide + x, static_cast<int>(row) * high + y)[c] =
                 width > 0
                     ? std::clamp((picture.at(x, y)[c] - range.low[channel]) / width, 0.0f, 1.0f)
                     : 0.5f;

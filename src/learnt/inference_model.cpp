@@ -95,8 +95,8 @@ void check_pose(const InferenceDescription& description, const std::vector<doubl
     if (!std::isfinite(pose[i]))
       throw ConfigError("{} = {} is no number", numbers[i].name, pose[i]);
     if (!extrapolates && (pose[i] < numbers[i].low || pose[i] > numbers[i].high))
-      throw ConfigError("{} = {}: the model has learnt {} to {}", numbers[i].name, pose[i],
-                        numbers[i].low, numbers[i].high);
+      throw ConfigError("{} = {}: the model has learnt {} to {} (extrapolate allows others)",
+                        numbers[i].name, pose[i], numbers[i].low, numbers[i].high);
   }
 }
 
