@@ -44,7 +44,8 @@ ExitCode dispatch(int argc, char** argv) {
                                       add_arrange(app),
                                       add_export(app),
                                       add_benchmark(app),
-                                      add_simulate(app)};
+                                      add_simulate(app),
+                                      add_infer(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {

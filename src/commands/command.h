@@ -35,6 +35,7 @@ Command add_arrange(CLI::App& program);
 Command add_export(CLI::App& program);
 Command add_benchmark(CLI::App& program);
 Command add_simulate(CLI::App& program);
+Command add_infer(CLI::App& program);
 
 /// Writes to standard output. A reader who has gone away is no mistake of ours; else throws Error.
 ExitCode print(const std::string& text);

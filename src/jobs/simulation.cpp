@@ -169,4 +169,17 @@ fs::path make_simulation(const Simulation& simulation, const fs::path& folder,
   return folder / "poses.csv";
 }
 
+bool is_simulated(const Simulation& simulation, const fs::path& folder) {
+  const std::vector<Pose> poses = poses_of(simulation.params);
+  try {
+    if (read_text(folder / "poses.csv") != table_of(poses)) return false;
+    for (std::size_t i = 0; i < poses.size(); ++i)
+      if (read_image(folder / picture_name(i)).metadata != metadata_of(simulation, poses[i]))
+        return false;
+  } catch (const Error&) {
+    return false;
+  }
+  return true;
+}
+
 }  // namespace gramloom

@@ -67,4 +67,7 @@ std::vector<PosedSleeve> simulate(const Simulation& simulation, const Control& c
 std::filesystem::path make_simulation(const Simulation& simulation,
                                       const std::filesystem::path& folder, const Control& control);
 
+/// Whether the folder holds all that: the table, and every picture as this simulation makes it.
+bool is_simulated(const Simulation& simulation, const std::filesystem::path& folder);
+
 }  // namespace gramloom

@@ -11,7 +11,8 @@
 
 namespace gramloom {
 
-/// A model to train: a [[model]] of the config, of one exemplar, or of several to blend.
+/// A model to train: a [[model]] of the config. A generator is of one exemplar, or of several to
+/// blend; an inference of none.
 struct Lesson {
   std::size_t model = 0;               // of the config
   std::vector<std::size_t> exemplars;  // of the config
@@ -19,8 +20,8 @@ struct Lesson {
 };
 std::vector<Lesson> lessons_of(const Config& config);
 
-/// How trainings went, and what became of them: a method each for every exemplar it has learnt, to
-/// be run and scored against it.
+/// How trainings went, and what became of them: of generators a method each for every exemplar it
+/// has learnt, to be run and scored against it.
 struct Trained {
   int failed = 0;
   bool interrupted = false;
@@ -31,7 +32,9 @@ struct Trained {
 ///   NAME.safetensors          the model, its best state by a score that training does not see
 ///   NAME.csv                  the trace of its losses
 ///   NAME_000200.png           what it makes after 200 steps, and so on
+///   NAME_held_out.png         of an inference, beside the truth, the nearest pair and a blend
 ///   NAME.checkpoint[.csv]     state of an unfinished training
+/// and in `output`/data/NAME the pictures that were simulated for an inference.
 /// With `options.resume`, finished ones are kept, and unfinished ones go on to the same bytes. One
 /// that fails does not stop the others. Throws ConfigError when `output` cannot be written, or when
 /// a file in it that would be replaced is no run's.

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+#include "jobs/inputs.h"
+#include "learnt/inference_model.h"
+
+namespace gramloom {
+
+/// What an inference learns from: poses and their pictures.
+struct InferencePairs {
+  std::vector<PoseNumber> numbers;  // of a pose, with their ranges
+  std::vector<std::vector<double>> poses;
+  std::vector<Image> pictures;  // of one size and number of channels
+  PixelType pixel_type = PixelType::uint8;
+  MapKind values = MapKind::scalar;
+  std::string hash;  // of the table and all pictures
+};
+
+/// A table of poses: its first line names the columns, lines of nothing count for none.
+struct PoseTable {
+  std::vector<std::string> names;  // of the numbers
+  std::vector<std::vector<double>> poses;
+  std::vector<std::string> pictures;  // of the column 'picture', if there is one
+  std::vector<std::size_t> lines;     // where each pose stands
+};
+/// Throws Error in one line with file and line: no numbers, two columns of one name, a row of
+/// another number of cells, a cell that is no number, a row without its picture.
+PoseTable read_pose_table(const std::filesystem::path& table);
+
+/// The pairs of a table with a column 'picture', a file each, from the table's folder on. Throws
+/// Error likewise, and for a picture that cannot be read or is of another size or number of
+/// channels than the first, and for fewer than `fewest_pairs`.
+InferencePairs read_pairs(const std::filesystem::path& table, FileHashes& hashes);
+inline constexpr std::size_t fewest_pairs = 8;
+
+/// Which pairs are trained on; by which the best state is chosen; and which only tell the error.
+struct PairSplit {
+  std::vector<std::size_t> learnt, chosen_by, tested;
+};
+/// `share` of `count` pairs are held out, spread evenly over the table by the seed, and take turns
+/// in the latter two.
+PairSplit split_pairs(std::size_t count, double share, int seed);
+
+/// Those of the pairs.
+InferencePairs select_pairs(const InferencePairs& pairs, const std::vector<std::size_t>& wanted);
+
+}  // namespace gramloom

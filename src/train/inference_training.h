@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/progress.h"
+#include "learnt/inference_model.h"
+#include "train/inference_recipe.h"
+
+namespace gramloom {
+
+/// What an inference learns: pairs of a pose and a picture. `description` says what poses and
+/// pictures are; sizes of the network and recipe are filled in by the training.
+struct InferenceLesson {
+  InferenceRecipe recipe;
+  std::vector<std::vector<double>> poses;
+  std::vector<Image> pictures;  // of one size and number of channels
+  InferenceDescription description;
+};
+
+/// A state on the way: the model as it is after `step` of `steps`.
+struct InferenceState {
+  const InferenceModel& model;
+  int step = 0;
+  int steps = 0;
+};
+/// Looks at a state, and says how good it is on pairs that are not in the lesson: less is better.
+/// The best state is kept.
+using InferenceJudge = std::function<double(const InferenceState&)>;
+
+/// The axes on which pictures go on at the opposite edge: first and last pixels differ no more than
+/// neighbours do.
+Tile wrapping_axes(const std::vector<Image>& pictures);
+
+/// The trained model. With `control.checkpoint` it goes on from where it stopped, to the same bytes
+/// as uninterrupted (for the same number of threads). Throws ConfigError for a recipe out of range,
+/// Interrupted when the progress says stop.
+InferenceModel train_inference(const InferenceLesson& lesson, const Control& control,
+                               const InferenceJudge& judge);
+
+/// What that is expected to need.
+Cost estimate_training(const InferenceLesson& lesson);
+
+}  // namespace gramloom
