@@ -11,39 +11,46 @@ namespace gramloom {
 
 namespace {
 
-// The mean square of how far pixel (x, y) and the one at `dx`, `dy` from it are apart.
-class Differences {
- public:
-  void add(const float* a, const float* b, int channels) {
-    for (int c = 0; c < channels; ++c) {
-      const double difference = static_cast<double>(a[c]) - static_cast<double>(b[c]);
-      sum_ += difference * difference;
+// Of lines of pixels across an axis: how far each is from the next, the last from the first, as a
+// sum of squares. `place(line, i)` is pixel i of a line.
+template <class Place>
+std::vector<double> steps_along(const Image& picture, int lines, int length, Place place) {
+  std::vector<double> steps(static_cast<std::size_t>(lines), 0.0);
+  for (int line = 0; line < lines; ++line)
+    for (int i = 0; i < length; ++i) {
+      const float* own = place(line, i);
+      const float* next = place((line + 1) % lines, i);
+      for (int c = 0; c < picture.channels; ++c) {
+        const double difference = static_cast<double>(own[c]) - static_cast<double>(next[c]);
+        steps[static_cast<std::size_t>(line)] += difference * difference;
+      }
     }
-    ++count_;
-  }
-  double mean() const { return count_ == 0 ? 0 : sum_ / static_cast<double>(count_); }
+  return steps;
+}
 
- private:
-  double sum_ = 0;
-  std::int64_t count_ = 0;
-};
+void add(std::vector<double>& sums, const std::vector<double>& values) {
+  sums.resize(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) sums[i] += values[i];
+}
+
+// Where pictures wrap, the step from the last line to the first is one between its neighbours.
+bool wraps(const std::vector<double>& steps) {
+  const std::size_t count = steps.size();
+  return count < 3 || steps[count - 1] <= 2 * std::max(steps[count - 2], steps[0]);
+}
 
 }  // namespace
 
 Tile wrapping_axes(const std::vector<Image>& pictures) {
-  Differences along_x, along_y, around_x, around_y;
+  std::vector<double> along_x, along_y;
   for (const Image& picture : pictures) {
     const int width = picture.width, height = picture.height;
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        const auto add = [&](Differences& differences, int to_x, int to_y) {
-          differences.add(picture.at(x, y), picture.at(to_x, to_y), picture.channels);
-        };
-        add(x + 1 < width ? along_x : around_x, (x + 1) % width, y);
-        add(y + 1 < height ? along_y : around_y, x, (y + 1) % height);
-      }
+    add(along_x,
+        steps_along(picture, width, height, [&](int x, int y) { return picture.at(x, y); }));
+    add(along_y,
+        steps_along(picture, height, width, [&](int y, int x) { return picture.at(x, y); }));
   }
-  return wrapping(around_x.mean() <= along_x.mean(), around_y.mean() <= along_y.mean());
+  return wrapping(wraps(along_x), wraps(along_y));
 }
 
 InferenceModel train_inference(const InferenceLesson& lesson, const Control& control,

@@ -28,8 +28,8 @@ struct InferenceState {
 /// The best state is kept.
 using InferenceJudge = std::function<double(const InferenceState&)>;
 
-/// The axes on which pictures go on at the opposite edge: first and last pixels differ no more than
-/// neighbours do.
+/// The axes on which pictures go on at the opposite edge: in all of them together, first and last
+/// pixels differ about as little as the pixels beside them do.
 Tile wrapping_axes(const std::vector<Image>& pictures);
 
 /// The trained model. With `control.checkpoint` it goes on from where it stopped, to the same bytes

@@ -123,7 +123,7 @@ TEST(InferenceTraining, KeepsTheBestState) {
 
 TEST(InferenceTraining, TellsWhichAxesWrap) {
   const InferenceLesson task = lesson(10, 1);
-  EXPECT_EQ(wrapping_axes(task.pictures), Tile::x);
+  EXPECT_TRUE(tiles_x(wrapping_axes(task.pictures)));
   Image ramp(side, side, 2);
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x) ramp.at(x, y)[1] = static_cast<float>(x + 2 * y);
