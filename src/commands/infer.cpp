@@ -48,12 +48,14 @@ Command add_infer(CLI::App& program) {
   CLI::Option* pose =
       command->add_option("--pose", work.pose, "the model's numbers, in their order")
           ->type_name("A,B,…");
-  command
-      ->add_option("--to", work.to,
-                   "last pose of a sequence that begins with --pose; into a folder")
-      ->needs(pose)
-      ->type_name("A,B,…");
+  CLI::Option* to =
+      command
+          ->add_option("--to", work.to,
+                       "last pose of a sequence that begins with --pose; into a folder")
+          ->needs(pose)
+          ->type_name("A,B,…");
   command->add_option("--frames", work.frames, "of that sequence; 24")
+      ->needs(to)
       ->check(CLI::Range(1, 9999))
       ->type_name("N");
   command

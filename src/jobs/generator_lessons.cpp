@@ -19,14 +19,23 @@ const GeneratorRecipe& recipe_of(const Config& config, const Lesson& lesson) {
   return std::get<GeneratorRecipe>(config.models[lesson.model].recipe);
 }
 
+// Names of an exemplar's maps, and what the config says they are.
+Json map_words(const ExemplarEntry& exemplar) {
+  Json words = Json::array();
+  for (const auto& [name, map] : exemplar.maps)
+    words.push_back({name, value_to_json(map.kind, {}), value_to_json(map.green, {})});
+  return words;
+}
+
 // What the lesson's model depends on.
 Json settings_of(const Config& config, const Lesson& lesson, FileHashes& hashes) {
   Json settings{{"recipe", to_json_value(recipe_of(config, lesson))}, {"exemplars", Json::array()}};
   settings["recipe"].erase("exemplars");
   for (const std::size_t exemplar : lesson.exemplars)
-    settings["exemplars"].push_back({config.exemplars[exemplar].name,
-                                     exemplar_hashes(config.exemplars[exemplar], hashes),
-                                     value_to_json(config.exemplars[exemplar].max_side, {})});
+    settings["exemplars"].push_back(
+        {config.exemplars[exemplar].name, config.exemplars[exemplar].licence,
+         exemplar_hashes(config.exemplars[exemplar], hashes), map_words(config.exemplars[exemplar]),
+         value_to_json(config.exemplars[exemplar].max_side, {})});
   return settings;
 }
 
@@ -43,6 +52,10 @@ GeneratorLesson load_lesson(const Config& config, const Lesson& lesson, FileHash
     check_picture(exemplar.image);
     if (!exemplar.mask.empty() || !exemplar.guide.empty())
       throw Error("{}: a generator learns no masks and no guides yet", entry.place);
+    for (const ExemplarFile& file : request.files)
+      if (file.low != 0 || file.high != 1)
+        throw Error("{}: a generator learns no values beyond 0 to 1 yet, '{}' has {:g} to {:g}",
+                    entry.place, file.map.empty() ? "the picture" : file.map, file.low, file.high);
     const std::vector<Layer> own = layers_of(request.files);
     if (!layers.empty() && own != layers)
       throw Error("{}: its channels and maps are not those of the other exemplars", entry.place);

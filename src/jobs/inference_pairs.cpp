@@ -23,6 +23,19 @@ std::string place_in(const fs::path& table, std::size_t line) {
   return fmt::format("{}:{}", table.string(), line);
 }
 
+// With the range that each has in these poses.
+std::vector<PoseNumber> numbers_of(std::vector<PoseNumber> numbers,
+                                   const std::vector<std::vector<double>>& poses) {
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    numbers[k].low = numbers[k].high = poses.front()[k];
+    for (const auto& pose : poses) {
+      numbers[k].low = std::min(numbers[k].low, pose[k]);
+      numbers[k].high = std::max(numbers[k].high, pose[k]);
+    }
+  }
+  return numbers;
+}
+
 double number_of(const std::string& cell) {
   const auto value = from_cell<double>(cell);
   if (!std::isfinite(value)) throw Error("'{}' is not a finite number", cell);
@@ -119,14 +132,8 @@ InferencePairs read_pairs(const fs::path& file, FileHashes& hashes) {
       throw Error("{}: {} pictures need about {:.1f} GB of memory, {:.1f} GB are free",
                   file.string(), count, bytes / 1e9, available_memory() / 1e9);
   }
-  for (std::size_t k = 0; k < table.names.size(); ++k) {
-    PoseNumber number{table.names[k], table.poses[0][k], table.poses[0][k]};
-    for (const auto& pose : table.poses) {
-      number.low = std::min(number.low, pose[k]);
-      number.high = std::max(number.high, pose[k]);
-    }
-    pairs.numbers.push_back(number);
-  }
+  for (const std::string& name : table.names) pairs.numbers.push_back({name, 0, 0});
+  pairs.numbers = numbers_of(pairs.numbers, table.poses);
   pairs.poses = std::move(table.poses);
   pairs.hash = hash_of(all);
   return pairs;
@@ -154,6 +161,7 @@ InferencePairs select_pairs(const InferencePairs& pairs, const std::vector<std::
     some.poses.push_back(pairs.poses[i]);
     some.pictures.push_back(pairs.pictures[i]);
   }
+  some.numbers = numbers_of(pairs.numbers, some.poses);
   return some;
 }
 

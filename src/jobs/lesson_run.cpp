@@ -24,6 +24,28 @@ bool is_trained(const fs::path& model, const std::string& identity) {
   }
 }
 
+bool is_model(const fs::path& file) {
+  try {
+    model_kind(file);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+bool is_trace(const fs::path& file) {
+  try {
+    return !parse_trace(read_text(file)).rows.empty();
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+[[noreturn]] void refuse_foreign(const fs::path& file) {
+  throw Error("would replace {}, which no training of gramloom made",
+              file.lexically_normal().string());
+}
+
 }  // namespace
 
 fs::path model_of(const JobFiles& files) { return files.folder / (files.name + ".safetensors"); }
@@ -61,15 +83,18 @@ double run_training(const LessonRun& run, const std::string& identity,
   return trace.seconds();
 }
 
-void check_replaced_model(const fs::path& model) {
+void check_outputs(const JobFiles& files, const ProtectedFiles& inputs) {
+  const fs::path model = model_of(files);
+  for (const fs::path& file : {model, files.trace, files.checkpoint, files.checkpoint_trace})
+    inputs.check(file);
   std::error_code ignored;
-  if (!fs::exists(model, ignored)) return;
-  try {
-    model_kind(model);
-  } catch (const Error&) {
-    throw ConfigError("would replace {}, which no training of gramloom made",
-                      model.lexically_normal().string());
-  }
+  if (fs::exists(model, ignored) && !is_model(model)) refuse_foreign(model);
+  if (fs::exists(files.trace, ignored) && !is_trace(files.trace)) refuse_foreign(files.trace);
+  // Samples: NAME_000200.png, NAME_held_out.png.
+  for (const auto& entry : fs::directory_iterator(files.folder, ignored))
+    if (entry.path().extension() == ".png" &&
+        entry.path().filename().string().starts_with(files.name + "_"))
+      check_replaced(entry.path(), inputs, "gramloom:settings");
 }
 
 }  // namespace gramloom

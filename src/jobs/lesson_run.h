@@ -6,6 +6,7 @@
 
 #include "core/progress.h"
 #include "jobs/inputs.h"
+#include "jobs/protected_files.h"
 #include "jobs/training.h"
 #include "runs/job_files.h"
 
@@ -37,7 +38,8 @@ void refuse_without_memory(const Cost& cost, std::string_view advice);
 double run_training(const LessonRun& run, const std::string& identity,
                     const std::function<void(const Control&)>& train);
 
-/// Throws ConfigError when training would replace a file that is no model of ours.
-void check_replaced_model(const std::filesystem::path& model);
+/// Throws Error when training would write over one of `inputs`, or replace a file that no training
+/// made.
+void check_outputs(const JobFiles& files, const ProtectedFiles& inputs);
 
 }  // namespace gramloom

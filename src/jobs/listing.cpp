@@ -143,7 +143,12 @@ std::string list_models() {
   });
   std::vector<Row> rows;
   for (const auto& file : models_in_folder(".safetensors")) {
-    const std::string kind = model_kind(file);
+    std::string kind;
+    try {
+      kind = model_kind(file);
+    } catch (const Error&) {
+      continue;  // weights of others, such as VGG-19's
+    }
     if (kind != "generator") {
       rows.push_back({file.stem().string(), kind, ""});
       continue;

@@ -18,20 +18,23 @@ void refuse_lacks(const Method& method, const RequestSize& request) {
   throw Error("{}; methods that can: {}", lack->refusal, fmt::join(others, ", "));
 }
 
-// A texture with the maps of an exemplar of these layers joined to its image, as methods of
+// A texture with the maps that the exemplar has joined to its image, as methods of
 // exemplars return it.
-Texture joined_as(Texture texture, const std::vector<Layer>& layers) {
+Texture joined_as(Texture texture, const Exemplar& exemplar) {
   std::vector<const Image*> parts{&texture.image};
   int channels = texture.image.channels;
-  for (const Layer& layer : layers) {
+  for (const Layer& layer : exemplar.layers) {
     if (layer.name.empty()) continue;
     const auto map = texture.maps.find(layer.name);
     if (map == texture.maps.end())
       throw Error("the exemplar has a map '{}' that the model has not", layer.name);
     if (parts.back() == &map->second) continue;  // a map's alpha
     parts.push_back(&map->second);
-    channels += layer.count;
+    channels += map->second.channels;
   }
+  if (channels != exemplar.image.channels)
+    throw Error("the model's picture and maps have {} channels, those of the exemplar {}", channels,
+                exemplar.image.channels);
   if (parts.size() == 1) return texture;
   Texture joined;
   joined.image = Image(texture.image.size(), channels);
@@ -74,7 +77,7 @@ std::string compared_with(const Method& method) {
 Texture run_method(const Method& method, const Request& request, const Control& control) {
   if (!request.exemplars.empty() && !compared_with(method).empty()) {
     const Request without{{}, request.target, request.random};
-    return joined_as(run_method(method, without, control), request.exemplars.front().layers);
+    return joined_as(run_method(method, without, control), request.exemplars.front());
   }
   refuse_lacks(method, size_of(request));
   std::optional<Turned> turned;

@@ -7,6 +7,7 @@
 #include "jobs/exemplar_entries.h"
 #include "jobs/names.h"
 #include "jobs/overrides.h"
+#include "train/generator_training.h"
 
 namespace gramloom {
 
@@ -37,6 +38,13 @@ void check_exemplars(const GeneratorRecipe& recipe, const toml::table& table,
   for (const std::string& name : recipe.exemplars)
     if (!known(name))
       fail(key_region(table, "exemplars"), "'exemplars': no exemplar is called '{}'", name);
+    else if (std::ranges::count(recipe.exemplars, name) > 1)
+      fail(key_region(table, "exemplars"), "'exemplars' has '{}' twice", name);
+  try {
+    check_recipe(recipe);
+  } catch (const ConfigError& error) {
+    fail(key_region(table, "kind"), "{}", error.what());
+  }
   const std::size_t count =
       recipe.exemplars.empty() ? config.exemplars.size() : recipe.exemplars.size();
   if (count == 0) fail(key_region(table, "kind"), "a generator needs an [[exemplar]]");

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "io/text_file.h"
 #include "jobs/folder_lock.h"
 #include "jobs/generator_lessons.h"
 #include "jobs/inference_lessons.h"
+#include "jobs/input_files.h"
+#include "jobs/names.h"
 #include "jobs/output_guard.h"
 
 namespace gramloom {
@@ -24,6 +27,18 @@ void train(const LessonRun& run) {
     train_inference_lesson(run);
   else
     train_generator_lesson(run);
+}
+
+// Files of two lessons are not the same, and no name is too long for one.
+void check_names(const Config& config, const std::vector<Lesson>& lessons) {
+  std::set<std::string> names;
+  for (const Lesson& lesson : lessons) {
+    const std::string& place = config.models[lesson.model].place;
+    if (!names.insert(in_small_letters(lesson.name)).second)
+      throw ConfigError("{}: two models would be called '{}': rename one", place, lesson.name);
+    if (lesson.name.size() + std::string_view(".checkpoint.csv").size() > longest_file_name)
+      throw ConfigError("{}: the name '{}' is too long for a file", place, lesson.name);
+  }
 }
 
 std::vector<MethodEntry> methods_of(const Config& config, const Lesson& lesson,
@@ -66,11 +81,18 @@ Trained train_models(const Config& config, const RunOptions& options, ProgressBa
     create_folder(folder);
     lock.emplace(options.output);
     if (options.is_default_output) check_default_output(config, options.output);
+    std::vector<InputFile> read = input_files(config);
+    for (const ModelEntry& model : config.models)
+      if (const auto* inference = std::get_if<InferenceRecipe>(&model.recipe))
+        for (const fs::path& file : {inference->pairs, inference->simulation})
+          if (!file.empty()) read.push_back({file, "the config reads"});
+    const ProtectedFiles inputs(read);
     for (const Lesson& lesson : lessons)
-      check_replaced_model(model_of(job_files(options.output, "models/" + lesson.name)));
+      check_outputs(job_files(options.output, "models/" + lesson.name), inputs);
   } catch (const Error& error) {
     throw ConfigError("--output {}: {}", options.output.string(), error.what());
   }
+  check_names(config, lessons);
   FileHashes hashes;
   for (std::size_t i = 0; i < lessons.size(); ++i) {
     const Lesson& lesson = lessons[i];
@@ -82,8 +104,6 @@ Trained train_models(const Config& config, const RunOptions& options, ProgressBa
     } catch (const Interrupted&) {
       trained.interrupted = true;
       return trained;
-    } catch (const ConfigError&) {
-      throw;
     } catch (const std::bad_alloc&) {
       ++trained.failed;
       bar.complaint(fmt::format("{}: failed: out of memory", lesson.name));

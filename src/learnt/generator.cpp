@@ -36,20 +36,30 @@ std::vector<float> shares_of(const GeneratorParams& params, int materials) {
   return shares;
 }
 
+bool is_grey(const Image& picture) {
+  if (picture.channels != 3) return false;
+  for (std::size_t i = 0; i < picture.pixels.size(); i += 3)
+    if (picture.pixels[i] != picture.pixels[i + 1] || picture.pixels[i] != picture.pixels[i + 2])
+      return false;
+  return true;
+}
+
 // A channel a material, 1 in all, of a picture.
 Image share_map_of(const GeneratorParams& params, int materials) {
   if (!params.weights.empty()) throw ConfigError("weights and weight_picture exclude each other");
   const Image picture = read_image(params.weight_picture).image;
-  const bool between = picture.channels == 1 || (materials == 2 && picture.channels == 3);
-  if (!(between && materials == 2) && picture.channels != materials)
-    throw ConfigError("weight_picture {}: has {} channels, the model has {} materials",
-                      params.weight_picture.string(), picture.channels, materials);
+  const bool between = materials == 2 && (picture.channels == 1 || is_grey(picture));
+  if (!between && (picture.channels != materials || materials == 2))
+    throw ConfigError(
+        "weight_picture {}: has {} channels and the model {} materials: needed is a grey picture "
+        "for two, else a channel a material",
+        params.weight_picture.string(), picture.channels, materials);
   Image shares(picture.size(), materials);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
       const float* from = picture.at(x, y);
       float* to = shares.at(x, y);
-      if (between && materials == 2) {
+      if (between) {
         to[1] = std::clamp(from[0], 0.0f, 1.0f);
         to[0] = 1 - to[1];
         continue;

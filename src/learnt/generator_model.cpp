@@ -1,6 +1,6 @@
 #include "learnt/generator_model.h"
 
-#include <cmath>
+#include <set>
 
 #include "core/error.h"
 #include "learnt/model_file.h"
@@ -38,7 +38,14 @@ void check_description(const GeneratorDescription& description, const std::strin
   for (const GeneratorLevel& level : description.levels)
     if (level.noise % 4 != 0) fail("its channels of noise are no multiple of 4");
   int channels = 0;
+  std::set<std::string> names;
+  const std::string* before = nullptr;
   for (const GeneratorLayer& layer : description.layers) {
+    const bool alpha = before && *before == layer.name && layer.kind == MapKind::alpha;
+    if ((!alpha && !names.insert(layer.name).second) || layer.name.empty() != (names.size() == 1) ||
+        layer.name.find_first_of("/\\") != std::string::npos)
+      fail("its layers have names that no maps have");
+    before = &layer.name;
     if (layer.first != channels) fail("its layers leave a gap");
     channels += layer.count;
   }
@@ -83,6 +90,9 @@ GeneratorDescription read_generator_description(const std::filesystem::path& fil
 GeneratorModel read_generator(const std::filesystem::path& file) {
   GeneratorModel model{read_generator_description(file), read_tensors(file)};
   check_tensors(model.tensors, tensor_shapes(model.description), file.string());
+  const auto &low = model.values("colours.low"), &high = model.values("colours.high");
+  for (std::size_t c = 0; c < low.size(); ++c)
+    if (low[c] > high[c]) throw Error("{}: 'colours.low' is above 'colours.high'", file.string());
   return model;
 }
 

@@ -16,8 +16,14 @@ namespace gramloom {
 
 namespace {
 
-// All tiles are this large, also those that stick out: their networks are made once.
-constexpr int tile_side = 192;
+// No tile is larger. All are equally large, also those that stick out a little: their networks are
+// made once.
+constexpr int longest_tile = 192;
+
+int tile_length(int length) {
+  const int count = (length + longest_tile - 1) / longest_tile;
+  return (length + count - 1) / count;
+}
 
 // A level's picture on a rectangle that begins at (x, y): channels interleaved.
 struct Part {
@@ -133,22 +139,32 @@ class TileMaker {
   PixelShares shares_at(int k, std::int64_t left, std::int64_t top, Size size) {
     const Image& map = wanted_.share_map;
     if (map.empty()) return {};
-    const double scale = std::ldexp(1.0, model_.level_count() - 1 - k);
+    const auto level = static_cast<std::size_t>(k);
+    const double halved = std::ldexp(1.0, model_.level_count() - 1 - k);
     shares_.resize(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) *
                    static_cast<std::size_t>(map.channels));
     float* to = shares_.data();
-    const auto place = [&](std::int64_t first, int i, int length, int wanted) {
-      const double centre = (static_cast<double>(first + i) + 0.5) * scale;
-      return std::clamp(centre * length / wanted - 0.5, 0.0, length - 1.0);
+    // Around the edges where the picture tiles, else the nearest.
+    const auto place = [&](const LevelAxis& axis, std::int64_t at, int length, int wanted) {
+      const double own = axis.length > 0 ? static_cast<double>(axis.length) : wanted / halved;
+      const double x =
+          static_cast<double>(axis.length > 0 ? std::int64_t{axis.noise_at(at)} : at) + 0.5;
+      const double there = x * length / own - 0.5;
+      return axis.length > 0 && there < 0 ? there + length
+             : axis.length > 0            ? there
+                                          : std::clamp(there, 0.0, length - 1.0);
     };
     for (int row = 0; row < size.height; ++row) {
-      const double y = place(top, row, map.height, wanted_.size.height);
-      const int y0 = std::min(static_cast<int>(y), std::max(0, map.height - 2));
+      const double y = place(axes_.y[level], top + row, map.height, wanted_.size.height);
+      const int y0 = std::min(static_cast<int>(y), map.height - 1);
       for (int column = 0; column < size.width; ++column, to += map.channels) {
-        const double x = place(left, column, map.width, wanted_.size.width);
-        const int x0 = std::min(static_cast<int>(x), std::max(0, map.width - 2));
+        const double x = place(axes_.x[level], left + column, map.width, wanted_.size.width);
+        const int x0 = std::min(static_cast<int>(x), map.width - 1);
         const float right = static_cast<float>(x - x0), down = static_cast<float>(y - y0);
-        const int x1 = std::min(x0 + 1, map.width - 1), y1 = std::min(y0 + 1, map.height - 1);
+        const int x1 =
+            axes_.x[level].length > 0 ? (x0 + 1) % map.width : std::min(x0 + 1, map.width - 1);
+        const int y1 =
+            axes_.y[level].length > 0 ? (y0 + 1) % map.height : std::min(y0 + 1, map.height - 1);
         for (int m = 0; m < map.channels; ++m)
           to[m] = (1 - down) * ((1 - right) * map.at(x0, y0)[m] + right * map.at(x1, y0)[m]) +
                   down * ((1 - right) * map.at(x0, y1)[m] + right * map.at(x1, y1)[m]);
@@ -202,7 +218,10 @@ class Colours {
       : mean_(model.values("colours.mean")),
         axes_(model.values("colours.axes")),
         low_(model.values("colours.low")),
-        high_(model.values("colours.high")) {}
+        high_(model.values("colours.high")) {
+    for (const GeneratorLayer& layer : model.description.layers)
+      if (layer.kind == MapKind::normal && layer.count == 3) normals_.push_back(layer.first);
+  }
 
   void write(const float* values, float* pixel) const {
     const std::size_t channels = mean_.size();
@@ -211,10 +230,21 @@ class Colours {
       for (std::size_t i = 0; i < channels; ++i) sum += axes_[c * channels + i] * values[i];
       pixel[c] = std::clamp(sum, low_[c], high_[c]);
     }
+    for (const int first : normals_) make_unit(pixel + first);
   }
 
  private:
+  // A direction in three channels, (1 + component) / 2 each.
+  static void make_unit(float* pixel) {
+    float square = 0;
+    for (int c = 0; c < 3; ++c) square += (2 * pixel[c] - 1) * (2 * pixel[c] - 1);
+    if (!(square > 1e-12f)) return;
+    const float scale = 1 / std::sqrt(square);
+    for (int c = 0; c < 3; ++c) pixel[c] = 0.5f + 0.5f * scale * (2 * pixel[c] - 1);
+  }
+
   const std::vector<float>&mean_, &axes_, &low_, &high_;
+  std::vector<int> normals_;  // their first channels
 };
 
 // oneDNN works in the thread that calls it: the tiles keep the cores busy.
@@ -234,7 +264,7 @@ void generate_tiles(const GeneratorModel& model, const Generation& wanted, const
   const int levels = model.level_count();
   const Axes axes{level_axes(size.width, tiles_x(wanted.tile), levels),
                   level_axes(size.height, tiles_y(wanted.tile), levels)};
-  const Size tile{std::min(tile_side, size.width), std::min(tile_side, size.height)};
+  const Size tile{tile_length(size.width), tile_length(size.height)};
   const int columns = (size.width + tile.width - 1) / tile.width;
   const int rows = (size.height + tile.height - 1) / tile.height;
   const Colours colours(model);

@@ -83,6 +83,10 @@ function configOf(job) {
  *  other options. Only neural results depend on the threads. */
 function commandOf(job) {
   const { config, set, threads } = job.origin;
+  // A training's textures come with its models.
+  if (data.run.command[1] === 'train')
+    return [data.run.command[0], 'train', config || 'CONFIG', '--resume',
+      ...set.flatMap((option) => ['--set', option])].map(quoted).join(' ');
   return [data.run.command[0] ?? 'gramloom', 'run', config || 'CONFIG', '--only', job.name,
     ...set.flatMap((option) => ['--set', option]),
     ...(job.kind === 'neural' && threads > 0 ? ['--threads', String(threads)] : [])]

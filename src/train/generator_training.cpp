@@ -32,6 +32,11 @@ Size smallest_of(const std::vector<Image>& exemplars) {
 
 }  // namespace
 
+void check_recipe(const GeneratorRecipe& recipe) {
+  check_fields(recipe);
+  check_lists(recipe);
+}
+
 std::vector<GeneratorLevel> levels_of(const GeneratorRecipe& recipe, Size smallest) {
   const double side = std::min(smallest.width, smallest.height);
   const int finer =
@@ -45,8 +50,7 @@ std::vector<GeneratorLevel> levels_of(const GeneratorRecipe& recipe, Size smalle
 
 GeneratorModel train_generator(const GeneratorLesson& lesson, const Control& control,
                                const Judge& judge) {
-  check_fields(lesson.recipe);
-  check_lists(lesson.recipe);
+  check_recipe(lesson.recipe);
   const Size smallest = smallest_of(lesson.exemplars);
   // Patches of the coarsest level, and what its convolutions see, need some room.
   const int needed = 2 * std::max(lesson.recipe.patch_size.front(),

@@ -29,6 +29,9 @@ struct TrainingState {
 /// is kept.
 using Judge = std::function<double(const TrainingState&)>;
 
+/// Throws ConfigError for a recipe that no exemplar allows: "noise = 5: …".
+void check_recipe(const GeneratorRecipe& recipe);
+
 /// Levels of a generator of that exemplar, the coarsest first.
 std::vector<GeneratorLevel> levels_of(const GeneratorRecipe& recipe, Size smallest);
 

@@ -25,6 +25,7 @@ struct Training {
   int level = 0;      // under training
   int next_step = 0;  // of that level
   double best_score = std::numeric_limits<double>::infinity();
+  int best_step = 0;
   std::map<std::string, TensorData> best = {};
   Discriminators discriminators = {};  // of the level before
   std::optional<Tensors> saved = {};   // of the stage to go on with
@@ -55,7 +56,8 @@ void write_state(const Training& training, GeneratorStage& stage) {
                 {{"identity", training.control.identity},
                  {"level", fmt::format("{}", training.level)},
                  {"step", fmt::format("{}", training.next_step)},
-                 {"best", fmt::format("{}", training.best_score)}});
+                 {"best", fmt::format("{}", training.best_score)},
+                 {"best_step", fmt::format("{}", training.best_step)}});
 }
 
 // Goes on from a checkpoint of the same work; one that is damaged, or of other work, is not used.
@@ -80,6 +82,7 @@ void read_state(Training& training) {
     training.level = level;
     training.next_step = std::stoi(metadata.at("step"));
     training.best_score = std::stod(metadata.at("best"));
+    training.best_step = std::stoi(metadata.at("best_step"));
     training.saved = std::move(tensors);
   } catch (const std::exception&) {
     training.saved.reset();
@@ -99,6 +102,7 @@ void look(Training& training, int done) {
   const double score = training.judge({shown, done, training.total, to_come});
   if (to_come > 0 || !(score < training.best_score)) return;
   training.best_score = score;
+  training.best_step = done;
   training.best = shown.tensors;
 }
 
@@ -149,7 +153,11 @@ GeneratorModel run_generator_training(const GeneratorLesson& lesson, const Contr
   training.total = steps_before(lesson.recipe, levels);
   read_state(training);
   for (; training.level < levels; ++training.level) train_level(training);
-  if (!training.best.empty()) training.model.tensors = std::move(training.best);
+  if (!training.best.empty()) {
+    training.model.tensors = std::move(training.best);
+    training.model.description.scores = {{"judged", training.best_score},
+                                         {"step", training.best_step}};
+  }
   return std::move(training.model);
 }
 

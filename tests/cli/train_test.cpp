@@ -20,7 +20,7 @@ class TrainCommand : public Workspace {
         for (int c = 0; c < 3; ++c) {
           const double u = x * 0.5, v = y * 0.4;
           spots.at(x, y)[c] = static_cast<float>(0.5 + 0.3 * std::sin(u) * std::sin(v) - 0.05 * c);
-          rings.at(x, y)[c] = static_cast<float>(0.4 + 0.2 * std::sin(2 * u + v) + 0.05 * c);
+          rings.at(x, y)[c] = static_cast<float>(0.2 + 0.1 * std::sin(2 * u + v) + 0.05 * c);
         }
     write_image(folder_ / "spots.png", spots, {});
     write_image(folder_ / "rings.png", rings, {});
@@ -102,7 +102,8 @@ TEST_F(TrainCommand, SaysWhatIsWrongInOneLine) {
   write_config("", "");
   expect({"run", "t.toml"}, "a [[model]] is for 'gramloom train'");
   expect({"train", "e.toml"}, "e.toml");
-  expect({"train", "t.toml", "--set", "model.small.noise=[5]"}, "noise = 5: allowed are multiples");
+  expect({"train", "t.toml", "--set", "model.small.noise=[5]"},
+         "noise = 5: allowed are multiples of 4");
   expect({"train", "t.toml", "--set", "model.small.exemplars=['moss']"},
          "no exemplar is called 'moss'");
   expect({"train", "t.toml", "--set", "model.small.blend=true"}, "is of 2 to 8 exemplars");
