@@ -62,7 +62,8 @@ TEST_F(TrainCommand, LeavesAModelAndItsTextures) {
 
 TEST_F(TrainCommand, ABlendIsEachOfItsMaterials) {
   write_config("blend = true\n", "[[exemplar]]\nname = 'rings'\nimage = 'rings.png'\n");
-  const Outcome outcome = run({"train", "t.toml", "--quiet"});
+  const Outcome outcome =
+      run({"train", "t.toml", "--quiet", "--set", "model.small.steps=[160, 100]"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
   const auto image = [&](const char* file) { return read_image(folder_ / file).image; };
   const auto mean = [](const Image& picture, std::size_t channel) {
