@@ -7,10 +7,10 @@
 #include "jobs/config.h"
 #include "jobs/input_files.h"
 #include "jobs/listing.h"
-#include "jobs/model_entries.h"
 #include "jobs/output_guard.h"
 #include "jobs/plan.h"
 #include "jobs/runner.h"
+#include "jobs/training.h"
 
 namespace gramloom {
 
@@ -30,9 +30,11 @@ std::string output_refusal(const Config& config, const Plan& plan) {
 
 ExitCode check_config(const ConfigOptions& options) {
   const Config config = read_config(options.config, options.set);
-  refuse_models(config, "check");
+  std::string text;
+  if (!config.models.empty()) text = lesson_table(config) + "\n";
   const Plan plan = make_plan(config, options.only);
-  return print(job_table(config, plan) + output_refusal(config, plan));
+  if (!plan.jobs.empty()) text += job_table(config, plan);
+  return print(text + output_refusal(config, plan));
 }
 
 }  // namespace

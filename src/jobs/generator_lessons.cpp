@@ -153,6 +153,11 @@ void train_generator_lesson(const LessonRun& run) {
   run.bar.message(fmt::format("{}: trained in {}", run.lesson.name, clock_text(seconds)));
 }
 
+Cost estimate_generator_lesson(const Config& config, const Lesson& lesson) {
+  FileHashes hashes;
+  return estimate_training(load_lesson(config, lesson, hashes));
+}
+
 std::vector<MethodEntry> methods_of_generator(const Config& config, const Lesson& lesson,
                                               const JobFiles& files) {
   std::vector<MethodEntry> methods;

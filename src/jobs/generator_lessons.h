@@ -10,6 +10,9 @@ namespace gramloom {
 /// that they don't allow, Interrupted.
 void train_generator_lesson(const LessonRun& run);
 
+/// What training it is expected to need. Throws as the training does.
+Cost estimate_generator_lesson(const Config& config, const Lesson& lesson);
+
 /// Its textures, to be run and scored: a method for every exemplar that it has learnt.
 std::vector<MethodEntry> methods_of_generator(const Config& config, const Lesson& lesson,
                                               const JobFiles& files);

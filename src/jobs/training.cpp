@@ -11,6 +11,7 @@
 #include "jobs/input_files.h"
 #include "jobs/names.h"
 #include "jobs/output_guard.h"
+#include "jobs/text_table.h"
 
 namespace gramloom {
 
@@ -70,6 +71,26 @@ std::vector<Lesson> lessons_of(const Config& config) {
         lessons.push_back({m, {e}, fmt::format("{}_{}", config.exemplars[e].name, name)});
   }
   return lessons;
+}
+
+std::string lesson_table(const Config& config) {
+  const std::vector<Lesson> lessons = lessons_of(config);
+  check_names(config, lessons);
+  std::vector<Row> rows{{"model to train", "memory", "time"}};
+  for (const Lesson& lesson : lessons) {
+    if (is_inference(config, lesson)) {
+      rows.push_back({lesson.name, "", ""});
+      continue;
+    }
+    try {
+      const Cost cost = estimate_generator_lesson(config, lesson);
+      rows.push_back(
+          {lesson.name, fmt::format("{:.2f} GB", cost.bytes / 1e9), clock_text(cost.seconds)});
+    } catch (const Error& error) {
+      rows.push_back({lesson.name, "cannot be trained: " + first_line(error.what()), ""});
+    }
+  }
+  return text_table(rows, "");
 }
 
 Trained train_models(const Config& config, const RunOptions& options, ProgressBar& bar) {

@@ -20,6 +20,10 @@ struct Lesson {
 };
 std::vector<Lesson> lessons_of(const Config& config);
 
+/// The models that a config trains, with what each is expected to need, a line each. Throws Error
+/// for an exemplar that cannot be read.
+std::string lesson_table(const Config& config);
+
 /// How trainings went, and what became of them: of generators a method each for every exemplar it
 /// has learnt, to be run and scored against it.
 struct Trained {

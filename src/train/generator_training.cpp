@@ -69,6 +69,7 @@ GeneratorModel train_generator(const GeneratorLesson& lesson, const Control& con
 }
 
 Cost estimate_training(const GeneratorLesson& lesson) {
+  check_recipe(lesson.recipe);
   const auto levels = levels_of(lesson.recipe, smallest_of(lesson.exemplars));
   const int count = static_cast<int>(levels.size());
   const double side =

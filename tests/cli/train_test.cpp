@@ -93,6 +93,32 @@ TEST_F(TrainCommand, OneThatFailsDoesNotStopTheOthers) {
   EXPECT_TRUE(fs::exists(folder_ / "out/t/spots/small/seed1.png"));
 }
 
+TEST_F(TrainCommand, LearnsMapsWithThePicture) {
+  write_config("[[method]]\nname = 'big'\nkind = 'phase'\n", "maps = { mask = 'm.png' }\n");
+  Image map(64, 64, 4, 0.5f);
+  for (std::size_t i = 0; i < map.pixels.size(); i += 4) map.pixels[i] = i % 64 < 32 ? 0.2f : 0.8f;
+  write_image(folder_ / "m.png", map, {});
+  const Outcome outcome = run({"train", "t.toml", "--quiet"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const Image made = read_image(folder_ / "out/t/spots/small/seed1_mask.png").image;
+  EXPECT_EQ(made.channels, 4);  // with its alpha
+  EXPECT_EQ(made.size(), (Size{64, 64}));
+  const Outcome alone = run({"generate", "out/t/models/spots_small.safetensors", "--size", "64",
+                             "--tile", "both", "--output", "g.png", "--pixel-type", "uint8"});
+  ASSERT_EQ(alone.exit_code, 0) << alone.errors;
+  EXPECT_EQ(read_image(folder_ / "g_mask.png").image, made);
+}
+
+TEST_F(TrainCommand, ModelsOfOneNameAreRefused) {
+  write_config(
+      "blend = true\nexemplars = ['spots', 'rings']\n"
+      "[[model]]\nname = 'b'\nkind = 'generator'\nexemplars = ['spots']\n",
+      "[[exemplar]]\nname = 'rings'\nimage = 'rings.png'\n");
+  const Outcome outcome = run({"train", "t.toml", "--set", "model.small.name='spots_b'"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.errors, HasSubstr("two models would be called 'spots_b'"));
+}
+
 TEST_F(TrainCommand, SaysWhatIsWrongInOneLine) {
   const auto expect = [&](std::vector<std::string> words, const std::string& why) {
     const Outcome outcome = run(words);
@@ -101,7 +127,11 @@ TEST_F(TrainCommand, SaysWhatIsWrongInOneLine) {
     EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
   };
   write_config("", "");
+  const Outcome checked = run({"check", "t.toml"});
+  EXPECT_EQ(checked.exit_code, 0);
+  EXPECT_THAT(checked.output, HasSubstr("spots_small"));
   expect({"run", "t.toml"}, "a [[model]] is for 'gramloom train'");
+  expect({"train", "t.toml", "--set", "model.small.patch_size=[4]"}, "t.toml:");
   expect({"train", "e.toml"}, "e.toml");
   expect({"train", "t.toml", "--set", "model.small.noise=[5]"},
          "noise = 5: allowed are multiples of 4");
@@ -115,6 +145,9 @@ TEST_F(TrainCommand, SaysWhatIsWrongInOneLine) {
   expect({"generate", "pebbles", "--size", "8", "--output", "g.png", "--weights", "1,2"},
          "2 numbers are given, the model has 1 materials");
   fs::create_directories(folder_ / "foreign/models");
+  write_text(folder_ / "foreign/models/spots_small.csv", "mine\n1\n");
+  expect({"train", "t.toml", "--output", "foreign"}, "which no training of gramloom made");
+  fs::remove(folder_ / "foreign/models/spots_small.csv");
   write_text(folder_ / "foreign/models/spots_small.safetensors", "mine");
   expect({"train", "t.toml", "--output", "foreign"}, "which no training of gramloom made");
 }

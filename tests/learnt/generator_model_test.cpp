@@ -50,7 +50,7 @@ TEST_F(GeneratorFile, OfANewerVersion) {
   Json json{{"version", 99}};
   json.update(to_json_value(model.description));
   write_tensors(file_, model.tensors, {{"gramloom", to_text(json)}});
-  expect_refused("is a generator of version 99");
+  expect_refused("is of kind generator and version 99");
 }
 
 TEST_F(GeneratorFile, OfAnotherKind) {

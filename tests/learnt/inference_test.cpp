@@ -91,7 +91,7 @@ TEST_F(InferenceFile, WhatDoesNotFitIsRefusedInOneLine) {
   EXPECT_THAT(refusal(), HasSubstr("is no model that gramloom trained"));
   write_tensors(file_, some_inference().tensors,
                 {{"gramloom", "{\"version\": 2, \"kind\": \"inference\"}"}});
-  EXPECT_THAT(refusal(), HasSubstr("is a inference of version 2"));
+  EXPECT_THAT(refusal(), HasSubstr("is of kind inference and version 2"));
 }
 
 TEST(Inference, PosesAreChecked) {
