@@ -4,6 +4,7 @@
 
 #include "io/text_file.h"
 #include "jobs/interruption.h"
+#include "jobs/output_guard.h"
 #include "report/page.h"
 
 namespace gramloom {
@@ -27,6 +28,18 @@ bool show_run(const std::filesystem::path& folder, ProgressBar& bar) {
 void keep_large_buffers() {
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
   mallopt(M_TRIM_THRESHOLD, 2147483647);
+}
+
+RunOptions begin_run(const Config& config, const std::string& output, bool resume,
+                     const std::vector<std::string>& words) {
+  watch_signals();
+  RunOptions options;
+  options.is_default_output = output.empty();
+  options.output = output.empty() ? default_output(config) : std::filesystem::path(output);
+  options.resume = resume;
+  options.stop = stop_asked;
+  options.command = words;
+  return options;
 }
 
 ExitCode end_run(const std::filesystem::path& output, const RunSummary& summary, ProgressBar& bar) {

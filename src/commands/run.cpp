@@ -76,15 +76,8 @@ ExitCode run_config(const RunArguments& arguments) {
   refuse_models(config, "run");
   if (has_neural_jobs(config) && std::filesystem::is_regular_file(config.file))
     bound_spinning(arguments.words);
-  watch_signals();
-  RunOptions options;
-  options.is_default_output = arguments.output.empty();
-  options.output =
-      options.is_default_output ? default_output(config) : std::filesystem::path(arguments.output);
+  RunOptions options = begin_run(config, arguments.output, arguments.resume, arguments.words);
   options.only = arguments.config.only;
-  options.resume = arguments.resume;
-  options.stop = stop_asked;
-  options.command = arguments.words;
   const std::optional<Baseline> before = earlier_run(arguments, options);
   if (before) options.inputs = input_files(*before);
   ProgressBar bar(progress_style(arguments.quiet));

@@ -34,14 +34,7 @@ ExitCode train(const TrainArguments& arguments) {
   if (config.models.empty())
     throw ConfigError("{}: there is no [[model]] to train", config.file.string());
   if (std::filesystem::is_regular_file(config.file)) bound_spinning(arguments.words);
-  watch_signals();
-  RunOptions options;
-  options.is_default_output = arguments.output.empty();
-  options.output =
-      options.is_default_output ? default_output(config) : std::filesystem::path(arguments.output);
-  options.resume = arguments.resume;
-  options.stop = stop_asked;
-  options.command = arguments.words;
+  RunOptions options = begin_run(config, arguments.output, arguments.resume, arguments.words);
   ProgressBar bar(progress_style(arguments.quiet));
   const Trained trained = train_models(config, options, bar);
   if (trained.interrupted) {

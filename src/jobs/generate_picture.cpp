@@ -20,14 +20,6 @@ struct Part {
   int first = 0, channels = 0;
 };
 
-fs::path file_of(const GenerateWork& work, const std::string& map) {
-  if (map.empty()) return work.output;
-  fs::path file = work.output;
-  file.replace_filename(
-      fmt::format("{}_{}{}", file.stem().string(), map, file.extension().string()));
-  return file;
-}
-
 void check_files(const GenerateWork& work, const GeneratorDescription& description) {
   std::vector<InputFile> read{{model_file(work.params), "is the model"}};
   if (!work.params.weight_picture.empty())
@@ -36,7 +28,8 @@ void check_files(const GenerateWork& work, const GeneratorDescription& descripti
   inputs.check(work.output);
   // The maps' names are ours, not the user's: only files of an earlier picture are replaced.
   for (const GeneratorLayer& layer : description.layers)
-    if (!layer.name.empty()) check_replaced(file_of(work, layer.name), inputs, "gramloom:settings");
+    if (!layer.name.empty())
+      check_replaced(file_of_map(work.output, layer.name), inputs, "gramloom:settings");
 }
 
 Metadata metadata_of(const GenerateWork& work) {
@@ -53,7 +46,7 @@ std::vector<Part> open_parts(const GenerateWork& work, const GeneratorDescriptio
   const auto& layers = description.layers;
   for (std::size_t i = 0; i < layers.size();) {
     const GeneratorLayer& layer = layers[i];
-    Part part{file_of(work, layer.name), nullptr, layer.first, 0};
+    Part part{file_of_map(work.output, layer.name), nullptr, layer.first, 0};
     // A picture and its alpha are two layers of one name.
     for (; i < layers.size() && layers[i].name == layer.name; ++i) part.channels += layers[i].count;
     Encoding encoding;

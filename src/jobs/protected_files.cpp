@@ -58,4 +58,12 @@ void check_replaced(const fs::path& file, const ProtectedFiles& inputs, const st
                 file.lexically_normal().string());
 }
 
+std::filesystem::path file_of_map(const std::filesystem::path& picture, const std::string& map) {
+  if (map.empty()) return picture;
+  std::filesystem::path file = picture;
+  file.replace_filename(
+      fmt::format("{}_{}{}", picture.stem().string(), map, picture.extension().string()));
+  return file;
+}
+
 }  // namespace gramloom

@@ -36,4 +36,8 @@ class ProtectedFiles {
 void check_replaced(const std::filesystem::path& file, const ProtectedFiles& inputs,
                     const std::string& mark);
 
+/// The file of a map that is written beside a picture: NAME_<map> with the picture's extension; of
+/// no map, the picture itself.
+std::filesystem::path file_of_map(const std::filesystem::path& picture, const std::string& map);
+
 }  // namespace gramloom

@@ -27,14 +27,6 @@ struct Part {
   float low = 0, high = 1;  // the file's values that 0 and 1 stand for
 };
 
-fs::path file_of(const TileWork& work, const std::string& map) {
-  if (map.empty()) return work.output;
-  fs::path file = work.output;
-  file.replace_filename(
-      fmt::format("{}_{}{}", file.stem().string(), map, file.extension().string()));
-  return file;
-}
-
 void check_files(const TileWork& work) {
   std::vector<InputFile> read{{work.picture, "is to be tiled"}};
   for (const auto& [name, map] : work.maps) read.push_back({map.image, "is to be tiled"});
@@ -42,7 +34,7 @@ void check_files(const TileWork& work) {
   inputs.check(work.output);
   // The maps' names are ours, not the user's: only files of an earlier tiling are replaced.
   for (const auto& [name, map] : work.maps)
-    check_replaced(file_of(work, name), inputs, "gramloom:settings");
+    check_replaced(file_of_map(work.output, name), inputs, "gramloom:settings");
 }
 
 Metadata metadata_of(const TileWork& work) {
@@ -68,7 +60,7 @@ std::vector<Part> open_parts(const TileWork& work, const LoadedRequest& exemplar
   for (const ExemplarFile& file : exemplar.files) {
     Encoding encoding = file.encoding;
     if (work.pixel_type) encoding.pixel_type = *work.pixel_type;
-    Part part{file_of(work, file.map), nullptr, first, file.channels};
+    Part part{file_of_map(work.output, file.map), nullptr, first, file.channels};
     const bool scaled = file.low != 0 || file.high != 1;
     if (scaled && has_integers(part.file, encoding.pixel_type)) {
       tiled.notes.push_back(fmt::format("{}: 0 stands for {:g} and 1 for {:g}",

@@ -11,6 +11,7 @@
 #include "learnt/level_axis.h"
 #include "learnt/level_network.h"
 #include "learnt/noise.h"
+#include "signal/normal_colours.h"
 
 namespace gramloom {
 
@@ -234,15 +235,6 @@ class Colours {
   }
 
  private:
-  // A direction in three channels, (1 + component) / 2 each.
-  static void make_unit(float* pixel) {
-    float square = 0;
-    for (int c = 0; c < 3; ++c) square += (2 * pixel[c] - 1) * (2 * pixel[c] - 1);
-    if (!(square > 1e-12f)) return;
-    const float scale = 1 / std::sqrt(square);
-    for (int c = 0; c < 3; ++c) pixel[c] = 0.5f + 0.5f * scale * (2 * pixel[c] - 1);
-  }
-
   const std::vector<float>&mean_, &axes_, &low_, &high_;
   std::vector<int> normals_;  // their first channels
 };

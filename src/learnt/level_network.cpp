@@ -18,11 +18,6 @@ const dnnl::engine& cpu() {
   return engine;
 }
 
-int channel_block() {
-  static const bool wide = dnnl::get_effective_cpu_isa() >= dnnl::cpu_isa::avx512_core;
-  return wide ? 16 : 8;
-}
-
 memory::desc plain(memory::dims shape, memory::format_tag tag) {
   return {std::move(shape), memory::data_type::f32, tag};
 }

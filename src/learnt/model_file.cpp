@@ -41,8 +41,8 @@ Json read_description_json(const std::filesystem::path& file, std::string_view k
   const int written =
       from_json_value<int>(required_key(json, "version", place), place.at("version"), {1, 1e9});
   if (written > version)
-    throw Error("{}: is of kind {} and version {}, this gramloom knows versions up to {}", file.string(),
-                kind, written, version);
+    throw Error("{}: is of kind {} and version {}, this gramloom knows versions up to {}",
+                file.string(), kind, written, version);
   return json;
 }
 

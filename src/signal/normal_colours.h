@@ -13,6 +13,11 @@ bool is_signed(const Image& normal_map);
 /// Throws Error for fewer than three channels.
 Image as_colours(const Image& normal_map);
 
+/// (x, y, z) of length 1; of no length: (0, 0, 1).
+void store_unit(float x, float y, float z, float* to);
+/// Brings a pixel's three colours of a normal to unit length, likewise.
+void make_unit(float* colour);
+
 /// Throws Error for fewer than three channels.
 void check_normal_map(const Image& normal_map);
 

@@ -6,6 +6,12 @@ namespace gramloom {
 
 /// What differs between oneDNN 2 (Debian 12) and 3 (Debian 13): how primitives are described.
 
+/// Channels in a block: 16 where the processor has AVX-512, else 8.
+inline int channel_block() {
+  static const bool wide = dnnl::get_effective_cpu_isa() >= dnnl::cpu_isa::avx512_core;
+  return wide ? 16 : 8;
+}
+
 struct ConvolutionShape {
   dnnl::memory::desc input, weights, bias, output;  // bias: of no dimensions where there is none
   dnnl::memory::dims stride, dilation, padding;

@@ -20,18 +20,6 @@ void for_each_row(int height, F&& row) {
   });
 }
 
-void store_unit(float x, float y, float z, float* to) {
-  const float length = std::sqrt(x * x + y * y + z * z);
-  if (length > 0) {
-    to[0] = x / length;
-    to[1] = y / length;
-    to[2] = z / length;
-  } else {
-    to[0] = to[1] = 0;
-    to[2] = 1;
-  }
-}
-
 }  // namespace
 
 Image normals_from_height(const Image& height, double strength, Tile wraps) {
@@ -65,12 +53,6 @@ Image normals_to_colours(const Image& normals, GreenAxis green) {
     }
   });
   return picture;
-}
-
-void make_unit(float* colour) {
-  float n[3];
-  store_unit(2 * colour[0] - 1, 2 * colour[1] - 1, 2 * colour[2] - 1, n);
-  for (int c = 0; c < 3; ++c) colour[c] = (n[c] + 1) / 2;
 }
 
 void make_unit(Image& picture, int first) {

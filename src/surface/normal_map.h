@@ -21,8 +21,7 @@ Image normals_to_colours(const Image& normals, GreenAxis green);
 /// Brings the normals in channels first to first + 2 of a picture to unit length, as colours; those
 /// of no length become (0, 0, 1).
 void make_unit(Image& picture, int first = 0);
-/// The same for one pixel's three channels.
-void make_unit(float* colour);
+
 
 /// The unit normals of a normal map: N = 2 RGB − 1 of as_colours() (signal/normal_colours.h),
 /// divided by its length; a vector of no length becomes (0, 0, 1). Channels beyond the third are

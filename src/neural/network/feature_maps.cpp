@@ -2,9 +2,8 @@
 
 #include <torch/csrc/autograd/custom_function.h>
 
-#include <oneapi/dnnl/dnnl.hpp>
-
 #include "core/threads.h"
+#include "signal/onednn.h"
 
 namespace gramloom::neural {
 
@@ -111,10 +110,7 @@ std::int64_t source_of(std::int64_t position, std::int64_t length, Padding paddi
   return position >= 0 && position < length ? position : -1;
 }
 
-std::int64_t channel_block() {
-  static const bool wide = dnnl::get_effective_cpu_isa() >= dnnl::cpu_isa::avx512_core;
-  return wide ? 16 : 8;
-}
+std::int64_t channel_block() { return gramloom::channel_block(); }
 
 FeatureMaps to_maps(const at::Tensor& planes) {
   const std::int64_t block = channel_block();
