@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/threads.h"
 #include "neural/directed_settings.h"
 #include "neural/settings.h"
 #include "neural/synthesis.h"
@@ -19,6 +20,7 @@ constexpr double seconds_per_pixel_of_fill = 5e-7;  // known or made, in a step 
 constexpr double pictures_of_fill = 12;
 constexpr double directed_patches = 2.5;  // seconds, where each has its own place and goal
 constexpr double optimiser_values = 9;    // in memory, for each of the picture's
+constexpr double packed_bytes = 8e6;      // a thread: oneDNN's packed matrices, most with AVX2
 
 // Which part of a fill's patches is compared: those with a pixel of a hole.
 double counted_share(double made) { return std::min(1.0, 1.3 * made + 0.01); }
@@ -121,6 +123,7 @@ Cost estimate(const NeuralParams& asked, const RequestSize& request) {
     cost.bytes =
         std::max(cost.bytes, size.result * (48 * (1 + 2 * params.remembered()) + 40) +
                                  sizeof(float) * channels * (8 * size.result + 8 * size.exemplar));
+  cost.bytes += packed_bytes * thread_count();
   if (request.known)  // pictures and masks of the whole, most of which stays
     cost.bytes += sizeof(float) * pictures_of_fill * channels * canvas.width * canvas.height;
   cost.seconds = start_seconds + size.of_exemplar.filters / 2 / matrix_operations_per_second;
