@@ -42,8 +42,13 @@ RunOptions begin_run(const Config& config, const std::string& output, bool resum
   return options;
 }
 
-ExitCode end_run(const std::filesystem::path& output, const RunSummary& summary, ProgressBar& bar) {
-  const bool shown = show_run(output, bar);
+ExitCode end_run(const RunOptions& options, const RunSummary& summary, ProgressBar& bar) {
+  bool shown = true;
+  if (!options.shard)
+    shown = show_run(options.output, bar);
+  else
+    bar.message(
+        fmt::format("gramloom report {} makes the page of all shards", options.output.string()));
   if (summary.interrupted + summary.left > 0) {
     bar.complaint(fmt::format(
         "gramloom: interrupted, {} of {} jobs are left; --resume goes on",

@@ -45,7 +45,7 @@ ExitCode train(const TrainArguments& arguments) {
   config.models.clear();
   config.methods.insert(config.methods.end(), trained.methods.begin(), trained.methods.end());
   if (config.methods.empty()) return trained.failed > 0 ? job_failed : all_done;
-  const ExitCode ended = end_run(options.output, run(config, options, bar), bar);
+  const ExitCode ended = end_run(options, run(config, options, bar), bar);
   return ended == all_done && trained.failed > 0 ? job_failed : ended;
 }
 

@@ -97,10 +97,10 @@ Trained train_models(const Config& config, const RunOptions& options, ProgressBa
   Trained trained;
   const std::vector<Lesson> lessons = lessons_of(config);
   const fs::path folder = options.output / "models";
-  std::optional<FolderLock> lock;
+  std::optional<FileLock> lock;
   try {
     create_folder(folder);
-    lock.emplace(options.output);
+    lock = lock_folder(options.output);
     if (options.is_default_output) check_default_output(config, options.output);
     std::vector<InputFile> read = input_files(config);
     for (const ModelEntry& model : config.models)
