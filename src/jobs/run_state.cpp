@@ -102,6 +102,8 @@ bool wants_diversity(const RunState& state, const JobGroup& group) {
   const bool selected = std::any_of(group.begin(), group.end(),
                                     [](const auto* planned) { return planned->selected; });
   if (!run.config.scores || run.config.direction.fill || !first.exemplar || !selected) return false;
+  if (!run.options.shard)
+    remove_stale_temporaries(run.options.output / job_folder(run.config, first), "diversity");
   const std::vector<NamedRecord> finished = finished_jobs(run, group);
   // Whichever process finishes the last of them compares them.
   if (finished.size() < (run.options.shard ? std::max<std::size_t>(group.size(), 2) : 2))

@@ -26,7 +26,7 @@ void settle_scores(RunState& state, const PlannedJob& planned, const TaskResult&
 void settle_diversity(RunState& state, const JobGroup& group, const TaskResult& result);
 
 /// Whether the seeds of a group are to be compared, now that no more of its textures will be made
-/// here.
+/// here. What a comparison that was killed has left is removed.
 bool wants_diversity(const RunState& state, const JobGroup& group);
 
 /// Puts the exemplar of a job beside its results, so that the folder tells the whole story wherever

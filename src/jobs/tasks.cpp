@@ -1,5 +1,8 @@
 #include "jobs/tasks.h"
 
+#include <chrono>
+#include <thread>
+
 #include "io/text_file.h"
 #include "jobs/interruption.h"
 #include "runs/file_lock.h"
@@ -14,10 +17,20 @@ bool same_group(const PlannedJob& a, const PlannedJob& b) {
   return a.job.exemplar == b.job.exemplar && a.job.method == b.job.method;
 }
 
-// Throws Error where nothing can be written or locked.
-std::optional<FileLock> lock_job(const JobFiles& files) {
+constexpr std::chrono::seconds patience{10};  // for a worker of a run that was killed to end
+constexpr std::chrono::milliseconds pause{20};
+
+// Throws Error where nothing can be written or locked. A run that has the folder for itself waits a
+// little for a process that should not be there any more.
+std::optional<FileLock> lock_job(const Run& run, const JobFiles& files) {
   create_folder(files.folder);
-  return FileLock::take(files.lock, FileLock::Mode::exclusive);
+  const auto end = std::chrono::steady_clock::now() + patience;
+  for (;;) {
+    auto lock = FileLock::take(files.lock, FileLock::Mode::exclusive);
+    if (lock || run.options.shard || run.stopped() || std::chrono::steady_clock::now() > end)
+      return lock;
+    std::this_thread::sleep_for(pause);
+  }
 }
 
 // Does the work with the job's lock. Where none can be had because of the file system, the work
@@ -27,7 +40,7 @@ void with_lock(const Run& run, const PlannedJob& planned, TaskResult& result, F&
   const JobFiles files = job_files(run.options.output, planned.name);
   std::optional<FileLock> lock;
   try {
-    lock = lock_job(files);
+    lock = lock_job(run, files);
     if (!lock) {
       const std::string holder = holder_of(files.lock);
       result.elsewhere = holder.empty() ? "another process" : holder;
