@@ -4,6 +4,7 @@
 
 #include "io/text_file.h"
 #include "jobs/keep_exemplar.h"
+#include "runs/file_lock.h"
 #include "runs/job_files.h"
 
 namespace gramloom {
@@ -51,6 +52,7 @@ std::optional<JobRecord> finished_before(RunState& state, const PlannedJob& plan
   const std::string reason = reason_to_run(run, planned);
   if (reason.empty()) {
     remove_unfinished_state(files);
+    remove_stale_lock(files.lock);
     return find_record(files.record);
   }
   if (fs::exists(files.record)) run.bar.message(fmt::format("{}: again, {}", planned.name, reason));

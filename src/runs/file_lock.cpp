@@ -89,6 +89,15 @@ FileLock::~FileLock() {
 
 bool FileLock::share() { return lock(descriptor_, LOCK_SH, path_); }
 
+void remove_stale_lock(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored) || !is_lock(path)) return;
+  try {
+    FileLock::take(path, FileLock::Mode::exclusive);
+  } catch (const Error&) {
+  }
+}
+
 std::string holder_of(const fs::path& path) {
   try {
     const std::string text = read_text(path);

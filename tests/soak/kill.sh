@@ -2,7 +2,7 @@
 # Kills runs at random moments and looks at what they leave: every file under its own name must be
 # whole and the same as an undisturbed run's, and resuming must end with that run's bytes.
 #   tests/soak/kill.sh [KILLS] [build/gramloom]      1000 kills take about half an hour
-# The runs are plain ones, such of two processes (--jobs 2), and two shards in one folder at once.
+# The runs, of one thread so that neural textures are the same bytes too, are plain ones, such of two processes (--jobs 2), and two shards in one folder at once.
 set -uo pipefail
 kills=${1:-1000}
 gramloom=$(readlink -f "${2:-build/gramloom}")
@@ -23,7 +23,7 @@ cd "$folder" || exit 1
   printf '[[method]]\nname = "neural"\nkind = "neural"\nlayout = "noise"\niterations = [20]\n'
 } >config.toml
 
-"$gramloom" run config.toml --output whole --quiet || { echo "the undisturbed run failed" >&2; exit 1; }
+"$gramloom" run config.toml --output whole --quiet --threads 1 || { echo "the undisturbed run failed" >&2; exit 1; }
 
 pictures() { (cd "$1" && find . -name '*.png' ! -name '.*' | sort); }
 
@@ -52,10 +52,10 @@ compare() {  # a finished run with the undisturbed one
 
 begin() {  # one of the ways to run, as a process group of its own
   case $((RANDOM % 3)) in
-    0) setsid "$gramloom" run config.toml --output out --resume --quiet 2>>log & groups=($!) ;;
-    1) setsid "$gramloom" run config.toml --output out --resume --quiet --jobs 2 2>>log & groups=($!) ;;
-    2) setsid "$gramloom" run config.toml --output out --resume --quiet --shard 1/2 2>>log & groups=($!)
-       setsid "$gramloom" run config.toml --output out --resume --quiet --shard 2/2 2>>log & groups+=($!) ;;
+    0) setsid "$gramloom" run config.toml --output out --resume --quiet --threads 1 2>>log & groups=($!) ;;
+    1) setsid "$gramloom" run config.toml --output out --resume --quiet --threads 1 --jobs 2 2>>log & groups=($!) ;;
+    2) setsid "$gramloom" run config.toml --output out --resume --quiet --threads 1 --shard 1/2 2>>log & groups=($!)
+       setsid "$gramloom" run config.toml --output out --resume --quiet --threads 1 --shard 2/2 2>>log & groups+=($!) ;;
   esac
 }
 
@@ -69,13 +69,13 @@ while [ $done_kills -lt "$kills" ]; do
   wait "${groups[@]}" 2>/dev/null
   check
   if [ $((RANDOM % 10)) = 0 ]; then
-    "$gramloom" run config.toml --output out --resume --quiet || fault "resuming failed"
+    "$gramloom" run config.toml --output out --resume --quiet --threads 1 || fault "resuming failed"
     compare
     finished=$((finished + 1))
     rm -rf out
   fi
 done
-"$gramloom" run config.toml --output out --resume --quiet || fault "resuming failed"
+"$gramloom" run config.toml --output out --resume --quiet --threads 1 || fault "resuming failed"
 compare
 echo "$done_kills kills, $finished runs finished and compared, $faults faults"
 [ $faults = 0 ]
