@@ -30,7 +30,8 @@ ExitCode dispatch(int argc, char** argv) {
   app.footer(
       "Exit code: 0 all done; 1 a job failed or got worse; 2 bad usage or config; 130 "
       "interrupted.");
-  const std::vector<Command> commands{add_run(app, {argv, argv + argc}),
+  const std::vector<Command> commands{add_make(app, {argv, argv + argc}),
+                                      add_run(app, {argv, argv + argc}),
                                       add_train(app, {argv, argv + argc}),
                                       add_generate(app),
                                       add_check(app),

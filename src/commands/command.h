@@ -20,6 +20,7 @@ struct Command {
 };
 
 /// Each adds a command to the program's command line. `words` is the command line itself.
+Command add_make(CLI::App& program, const std::vector<std::string>& words);
 Command add_run(CLI::App& program, const std::vector<std::string>& words);
 Command add_train(CLI::App& program, const std::vector<std::string>& words);
 Command add_generate(CLI::App& program);
