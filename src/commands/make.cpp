@@ -92,8 +92,9 @@ Command add_make(CLI::App& program, const std::vector<std::string>& words) {
   add_repeated(*command, "--map", arguments->maps,
                "a map of the exemplar, made together with it; can be repeated", "NAME=FILE");
   command
-      ->add_option("--max-side", arguments->max_side,
-                   "scale the exemplars' longer sides down to this")
+      ->add_option(
+          "--max-side", arguments->max_side,
+          "scale the exemplars' longer sides down to this; 1024, or the result's longer side")
       ->check(CLI::Range(1, 65536))
       ->type_name("PIXELS");
   add_repeated(*command, "--set", work.set,

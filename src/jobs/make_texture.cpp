@@ -64,6 +64,11 @@ std::string method_section(const MakeWork& work, const std::string& texture) {
   return text;
 }
 
+// A photograph has more pixels than a texture's features need, and than one waits for.
+int max_side_of(const MakeWork& work) {
+  return work.max_side.value_or(std::max({1024, work.size.width, work.size.height}));
+}
+
 std::string exemplar_section(const MakeWork& work) {
   std::string text =
       fmt::format("\n[[exemplar]]\nname = {}\n", quoted(exemplar_name(work.exemplars.front())));
@@ -72,7 +77,7 @@ std::string exemplar_section(const MakeWork& work) {
   else
     text +=
         fmt::format("images = {}\n", quoted_paths({work.exemplars.begin(), work.exemplars.end()}));
-  if (work.max_side) text += fmt::format("max_side = {}\n", *work.max_side);
+  text += fmt::format("max_side = {}\n", max_side_of(work));
   std::string maps;
   for (const auto& [name, file] : work.maps)
     maps +=
@@ -96,6 +101,12 @@ void check_possible(const Config& config, const Plan& plan) {
                                   ? planned.error
                                   : memory_refusal(config, plan, planned, available_memory());
   if (!refusal.empty()) throw ConfigError("{}", refusal);
+}
+
+bool is_scaled_down(const ExemplarFacts& facts, int max_side) {
+  return std::ranges::any_of(facts.request.exemplars, [&](const ExemplarSize& exemplar) {
+    return std::max(exemplar.size.width, exemplar.size.height) == max_side;
+  });
 }
 
 // The names of maps are ours, not the user's: they are looked at as well.
@@ -140,6 +151,10 @@ MadeFiles make_texture(const MakeWork& work, const Control& control) {
       write_texture(work.output.parent_path(), work.output.stem().string(), texture,
                     output_formats(config, loaded.files, texture), settings);
   MadeFiles made{{}, std::move(loaded.notes)};
+  if (!work.max_side && job.exemplar && is_scaled_down(plan.exemplars.front(), max_side_of(work)))
+    made.notes.push_back(
+        fmt::format("pictures are used with at most {} pixels on a side: --max-side changes that",
+                    max_side_of(work)));
   for (const std::string& file : written.files)
     made.files.push_back(work.output.parent_path() / file);
   std::ranges::move(written.notes, std::back_inserter(made.notes));

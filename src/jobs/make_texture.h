@@ -15,7 +15,7 @@ namespace gramloom {
 struct MakeWork {
   std::vector<std::string> exemplars;  // pictures of one material; or a procedural texture's name
   NamedFiles<MapFile> maps;            // of the one exemplar
-  std::optional<int> max_side;
+  std::optional<int> max_side;         // none: 1024, or the longer side of the result
   Size size{512, 512};
   Tile tile = Tile::both;
   std::string kind;              // "": neural, or procedural for such a name

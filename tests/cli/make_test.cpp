@@ -1,6 +1,10 @@
 // `gramloom make`: one texture in one line.
 #include <gmock/gmock.h>
 
+#include <chrono>
+#include <csignal>
+#include <thread>
+
 #include "cli/workspace.h"
 
 namespace gramloom {
@@ -52,6 +56,30 @@ TEST_F(MakeCommand, SeveralPicturesAreOneMaterialAndMapsAreMadeToo) {
 TEST_F(MakeCommand, ANameIsAProceduralTexture) {
   expect_same_bytes({"brick", "--size", "32", "--set", "scale=2"}, "procedural/brick/seed1");
   EXPECT_EQ(file("made_height.png"), file("out/p/procedural/brick/seed1_height.png"));
+}
+
+TEST_F(MakeCommand, ScalesPhotographsDownAndSaysSo) {
+  write_image(folder_ / "large.png", Image(1100, 40, 3, 0.5f), {});
+  const std::vector<std::string> words{"make",   "large.png", "--kind",   "histogram",
+                                       "--size", "16",        "--output", "a.png"};
+  const Outcome outcome = run(words);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_THAT(outcome.errors, HasSubstr("1024 pixels"));
+  std::vector<std::string> whole = words;
+  whole.insert(whole.end(), {"--max-side", "1100"});
+  const Outcome other = run(whole);
+  ASSERT_EQ(other.exit_code, 0) << other.errors;
+  EXPECT_EQ(other.errors, "");
+}
+
+// A method that gives what it has when it is stopped gives nothing here.
+TEST_F(MakeCommand, LeavesNothingWhenItIsInterrupted) {
+  Process process(folder_, {"make", "e.png", "--size", "64", "--set", "iterations=1000000",
+                            "--output", "a.png"});
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  process.signal(SIGINT);
+  EXPECT_EQ(process.wait().exit_code, 130);
+  EXPECT_FALSE(fs::exists(folder_ / "a.png"));
 }
 
 TEST_F(MakeCommand, MistakesAreOneLineAndExitCode2) {
