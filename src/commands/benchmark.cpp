@@ -4,9 +4,9 @@
 #include "commands/command.h"
 #include "commands/config_options.h"
 #include "core/error.h"
-#include "core/threads.h"
 #include "jobs/benchmark_table.h"
 #include "jobs/progress_bar.h"
+#include "signal/opencv_threads.h"
 
 namespace gramloom {
 
@@ -30,7 +30,7 @@ RunOnDisk read_folder(const std::string& folder) {
 }
 
 ExitCode compare_methods(const BenchmarkArguments& arguments) {
-  set_thread_count(arguments.threads);
+  use_threads(arguments.threads);
   std::vector<Peer> peers;
   for (const std::string& option : arguments.peers) peers.push_back(parse_peer(option));
   const RunOnDisk run = read_folder(arguments.folder);

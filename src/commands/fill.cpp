@@ -6,9 +6,9 @@
 #include "commands/field_options.h"
 #include "commands/with_progress.h"
 #include "core/error.h"
-#include "core/threads.h"
 #include "jobs/fill_picture.h"
 #include "jobs/progress_bar.h"
+#include "signal/opencv_threads.h"
 
 namespace gramloom {
 
@@ -26,7 +26,7 @@ struct FillArguments {
 };
 
 ExitCode fill(const FillArguments& arguments) {
-  set_thread_count(arguments.threads);
+  use_threads(arguments.threads);
   FillWork work = arguments.work;
   work.picture = arguments.picture;
   work.mask = arguments.mask;

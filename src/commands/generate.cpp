@@ -6,9 +6,9 @@
 #include "commands/field_options.h"
 #include "commands/size_option.h"
 #include "commands/with_progress.h"
-#include "core/threads.h"
 #include "jobs/generate_picture.h"
 #include "jobs/progress_bar.h"
+#include "signal/opencv_threads.h"
 
 namespace gramloom {
 
@@ -25,7 +25,7 @@ struct GenerateArguments {
 };
 
 ExitCode generate_file(const GenerateArguments& arguments) {
-  set_thread_count(arguments.threads);
+  use_threads(arguments.threads);
   GenerateWork work = arguments.work;
   work.params.model = FileOrName(arguments.model);
   work.params.weight_picture = arguments.weight_picture;

@@ -10,9 +10,9 @@
 #include "commands/with_progress.h"
 #include "core/error.h"
 #include "core/spinning.h"
-#include "core/threads.h"
 #include "jobs/make_texture.h"
 #include "jobs/progress_bar.h"
+#include "signal/opencv_threads.h"
 
 namespace gramloom {
 
@@ -43,7 +43,7 @@ MakeWork work_of(const MakeArguments& arguments) {
 
 ExitCode make(const MakeArguments& arguments) {
   keep_large_buffers();
-  set_thread_count(arguments.threads);
+  use_threads(arguments.threads);
   const MakeWork work = work_of(arguments);
   if (arguments.print_config) return print(config_of(work));
   if (work.output.empty()) throw ConfigError("make: --output or --print-config is needed");

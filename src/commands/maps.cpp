@@ -5,9 +5,9 @@
 #include "commands/config_options.h"
 #include "commands/field_options.h"
 #include "core/error.h"
-#include "core/threads.h"
 #include "jobs/picture_maps.h"
 #include "jobs/progress_bar.h"
+#include "signal/opencv_threads.h"
 
 namespace gramloom {
 
@@ -42,7 +42,7 @@ MapWork work_of(const MapsArguments& arguments) {
 }
 
 ExitCode write_maps(const MapsArguments& arguments) {
-  set_thread_count(arguments.threads);
+  use_threads(arguments.threads);
   const MadeMaps made = make_maps(work_of(arguments));
   for (const std::string& note : made.notes) print_message(fmt::format("note: {}", note));
   std::string text;

@@ -7,9 +7,9 @@
 #include "commands/map_files.h"
 #include "commands/with_progress.h"
 #include "core/error.h"
-#include "core/threads.h"
 #include "jobs/preview_files.h"
 #include "jobs/progress_bar.h"
+#include "signal/opencv_threads.h"
 
 namespace gramloom {
 
@@ -24,7 +24,7 @@ struct PreviewArguments {
 };
 
 ExitCode preview_pictures(const PreviewArguments& arguments) {
-  set_thread_count(arguments.threads);
+  use_threads(arguments.threads);
   PreviewWork work = arguments.work;
   work.maps = named_maps(arguments.maps);
   return with_progress("preview", arguments.quiet, [&](const Control& control, ProgressBar& bar) {

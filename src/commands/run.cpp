@@ -19,6 +19,7 @@
 #include "jobs/runner.h"
 #include "jobs/worker.h"
 #include "runs/format.h"
+#include "signal/opencv_threads.h"
 
 namespace gramloom {
 
@@ -91,7 +92,7 @@ void spread(const RunArguments& arguments, const Config& config, RunOptions& opt
 
 ExitCode run_config(const RunArguments& arguments) {
   keep_large_buffers();
-  set_thread_count(arguments.worker > 0 ? arguments.worker : arguments.threads);
+  use_threads(arguments.worker > 0 ? arguments.worker : arguments.threads);
   const Config config = read_config(arguments.config.config, arguments.config.set);
   refuse_models(config, "run");
   if (has_neural_jobs(config) && std::filesystem::is_regular_file(config.file))

@@ -4,10 +4,10 @@
 
 #include "commands/command.h"
 #include "commands/config_options.h"
-#include "core/threads.h"
 #include "io/field_values.h"
 #include "jobs/progress_bar.h"
 #include "jobs/score_files.h"
+#include "signal/opencv_threads.h"
 
 namespace gramloom {
 
@@ -23,7 +23,7 @@ struct ScoreArguments {
 };
 
 ExitCode score_pictures(const ScoreArguments& arguments) {
-  set_thread_count(arguments.threads);
+  use_threads(arguments.threads);
   constexpr auto names = enum_names<Tile>;
   static_assert(NamedEnum<Tile>);
   const Tile tile =

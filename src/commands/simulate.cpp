@@ -4,9 +4,9 @@
 #include "commands/command.h"
 #include "commands/config_options.h"
 #include "commands/with_progress.h"
-#include "core/threads.h"
 #include "jobs/progress_bar.h"
 #include "jobs/simulation.h"
+#include "signal/opencv_threads.h"
 
 namespace gramloom {
 
@@ -20,7 +20,7 @@ struct SimulateArguments {
 };
 
 ExitCode simulate_config(const SimulateArguments& arguments) {
-  set_thread_count(arguments.threads);
+  use_threads(arguments.threads);
   const Simulation simulation = read_simulation(arguments.config);
   return with_progress("simulate", arguments.quiet, [&](const Control& control, ProgressBar&) {
     return make_simulation(simulation, arguments.output, control).string() + "\n";

@@ -8,9 +8,9 @@
 #include "commands/size_option.h"
 #include "commands/with_progress.h"
 #include "core/error.h"
-#include "core/threads.h"
 #include "jobs/progress_bar.h"
 #include "jobs/tile_picture.h"
+#include "signal/opencv_threads.h"
 
 namespace gramloom {
 
@@ -28,7 +28,7 @@ struct TileArguments {
 };
 
 ExitCode tile(const TileArguments& arguments) {
-  set_thread_count(arguments.threads);
+  use_threads(arguments.threads);
   TileWork work = arguments.work;
   work.picture = arguments.picture;
   work.output = arguments.output;

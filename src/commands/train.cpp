@@ -6,13 +6,13 @@
 #include "commands/end_run.h"
 #include "core/error.h"
 #include "core/spinning.h"
-#include "core/threads.h"
 #include "jobs/config.h"
 #include "jobs/interruption.h"
 #include "jobs/output_guard.h"
 #include "jobs/progress_bar.h"
 #include "jobs/runner.h"
 #include "jobs/training.h"
+#include "signal/opencv_threads.h"
 
 namespace gramloom {
 
@@ -29,7 +29,7 @@ struct TrainArguments {
 
 ExitCode train(const TrainArguments& arguments) {
   keep_large_buffers();
-  set_thread_count(arguments.threads);
+  use_threads(arguments.threads);
   Config config = read_config(arguments.config.config, arguments.config.set);
   if (config.models.empty())
     throw ConfigError("{}: there is no [[model]] to train", config.file.string());

@@ -149,7 +149,7 @@ class SideBySide {
     if (polled.empty()) return;
     poll(polled.data(), polled.size(), wait_milliseconds);
     for (std::size_t i = 0; i < polled.size(); ++i)
-      if (polled[i].revents != 0) hear(*asked[i]);
+      if (polled[i].revents != 0 || asked[i]->process->has_ended()) hear(*asked[i]);
   }
 
   void hear(Worker& worker) {

@@ -6,8 +6,10 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 #include "core/error.h"
@@ -16,6 +18,9 @@
 namespace gramloom {
 
 namespace {
+
+constexpr std::chrono::seconds patience{3};
+constexpr std::chrono::milliseconds pause{2};
 
 std::array<int, 2> make_pipe() {
   std::array<int, 2> ends{};
@@ -58,6 +63,7 @@ WorkerProcess::WorkerProcess(const std::vector<std::string>& words, int threads,
   close(answers[1]);
   tasks_ = tasks[1];
   answers_ = answers[0];
+  fcntl(answers_, F_SETFL, O_NONBLOCK);
   if (process_ < 0) {
     close_end(tasks_);
     close_end(answers_);
@@ -68,9 +74,8 @@ WorkerProcess::WorkerProcess(const std::vector<std::string>& words, int threads,
 }
 
 WorkerProcess::~WorkerProcess() {
-  close_end(tasks_);
+  how_it_ended();
   close_end(answers_);
-  if (process_ > 0) how_it_ended();
 }
 
 // One that has ended cannot be asked; its answers say so.
@@ -84,7 +89,9 @@ std::optional<std::vector<WorkerAnswer>> WorkerProcess::answers() {
   ssize_t count = 0;
   while ((count = read(answers_, some.data(), some.size())) < 0 && errno == EINTR) {
   }
-  if (count <= 0) return std::nullopt;
+  // A failure to read is no end, as long as there is someone.
+  if (count == 0 || (count < 0 && has_ended())) return std::nullopt;
+  if (count < 0) return std::vector<WorkerAnswer>();
   rest_.append(some.data(), static_cast<std::size_t>(count));
   std::vector<WorkerAnswer> found;
   std::size_t begin = 0;
@@ -95,16 +102,25 @@ std::optional<std::vector<WorkerAnswer>> WorkerProcess::answers() {
   return found;
 }
 
-void WorkerProcess::stop() { kill(process_, SIGTERM); }
+void WorkerProcess::stop() {
+  if (!has_ended()) kill(process_, SIGTERM);
+}
+
+bool WorkerProcess::has_ended() {
+  if (process_ > 0 && waitpid(process_, &status_, WNOHANG) != 0) process_ = -1;
+  return process_ < 0;
+}
 
 std::string WorkerProcess::how_it_ended() {
-  int status = 0;
-  pid_t ended = 0;
-  while ((ended = waitpid(process_, &status, 0)) < 0 && errno == EINTR) {
+  close_end(tasks_);  // it ends when there is no more to read
+  for (const int signal : {0, SIGTERM, SIGKILL}) {
+    if (signal != 0 && !has_ended()) kill(process_, signal);
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (!has_ended() && std::chrono::steady_clock::now() < end)
+      std::this_thread::sleep_for(pause);
   }
-  if (ended != std::exchange(process_, -1)) return "is gone";
-  if (WIFSIGNALED(status)) return fmt::format("was killed by signal {}", WTERMSIG(status));
-  return fmt::format("ended with code {}", WEXITSTATUS(status));
+  if (WIFSIGNALED(status_)) return fmt::format("was killed by signal {}", WTERMSIG(status_));
+  return fmt::format("ended with code {}", WEXITSTATUS(status_));
 }
 
 }  // namespace gramloom

@@ -16,7 +16,7 @@ class WorkerProcess {
   /// Starts this program with the same words and what makes it a worker of so many threads. Throws
   /// Error.
   WorkerProcess(const std::vector<std::string>& words, int threads, const std::string& greeting);
-  /// Waits until it has ended.
+  /// Ends it.
   ~WorkerProcess();
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
@@ -28,11 +28,13 @@ class WorkerProcess {
   std::optional<std::vector<WorkerAnswer>> answers();
   /// Asks it to stop as Ctrl-C would.
   void stop();
-  /// Waits until it has ended: "killed by signal 9", "ended with code 1".
+  bool has_ended();
+  /// Ends it, if need be by force: "was killed by signal 9", "ended with code 1".
   std::string how_it_ended();
 
  private:
   pid_t process_ = -1;
+  int status_ = 0;  // once it has ended
   int tasks_ = -1, answers_ = -1;
   std::string rest_;  // of a line
 };
