@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_inference(const Config& config, const Lesson& lesson) {
-  return std::holds_alternative<InferenceRecipe>(config.models[lesson.model].recipe);
+  return std::holds_alternative<InferenceTask>(config.models[lesson.model].recipe);
 }
 
 void train(const LessonRun& run) {
@@ -54,7 +54,7 @@ std::vector<Lesson> lessons_of(const Config& config) {
   std::vector<Lesson> lessons;
   for (std::size_t m = 0; m < config.models.size(); ++m) {
     const std::string& name = config.models[m].name;
-    if (std::holds_alternative<InferenceRecipe>(config.models[m].recipe)) {
+    if (std::holds_alternative<InferenceTask>(config.models[m].recipe)) {
       lessons.push_back({m, {}, name});
       continue;
     }
@@ -79,6 +79,7 @@ std::string lesson_table(const Config& config) {
   std::vector<Row> rows{{"model to train", "memory", "time"}};
   for (const Lesson& lesson : lessons) {
     if (is_inference(config, lesson)) {
+      check_frames(config.models[lesson.model]);
       rows.push_back({lesson.name, "", ""});
       continue;
     }
@@ -96,6 +97,8 @@ std::string lesson_table(const Config& config) {
 Trained train_models(const Config& config, const RunOptions& options, ProgressBar& bar) {
   Trained trained;
   const std::vector<Lesson> lessons = lessons_of(config);
+  for (const Lesson& lesson : lessons)
+    if (is_inference(config, lesson)) check_frames(config.models[lesson.model]);
   const fs::path folder = options.output / "models";
   std::optional<FolderLock> lock;
   try {
@@ -104,12 +107,16 @@ Trained train_models(const Config& config, const RunOptions& options, ProgressBa
     if (options.is_default_output) check_default_output(config, options.output);
     std::vector<InputFile> read = input_files(config);
     for (const ModelEntry& model : config.models)
-      if (const auto* inference = std::get_if<InferenceRecipe>(&model.recipe))
+      if (const auto* inference = std::get_if<InferenceTask>(&model.recipe))
         for (const fs::path& file : {inference->pairs, inference->simulation})
           if (!file.empty()) read.push_back({file, "the config reads"});
     const ProtectedFiles inputs(read);
-    for (const Lesson& lesson : lessons)
-      check_outputs(job_files(options.output, "models/" + lesson.name), inputs);
+    for (const Lesson& lesson : lessons) {
+      const JobFiles files = job_files(options.output, "models/" + lesson.name);
+      check_outputs(files, inputs);
+      if (is_inference(config, lesson))
+        check_frame_files(config.models[lesson.model], files, inputs);
+    }
   } catch (const Error& error) {
     throw ConfigError("--output {}: {}", options.output.string(), error.what());
   }

@@ -37,11 +37,13 @@ struct Trained {
 ///   NAME.csv                  the trace of its losses
 ///   NAME_000200.png           what it makes after 200 steps, and so on
 ///   NAME_held_out.png         of an inference, beside the truth, the nearest pair and a blend
+///   NAME_frames               the folder of its sequence, as `infer` writes it
 ///   NAME.checkpoint[.csv]     state of an unfinished training
 /// and in `output`/data/NAME the pictures that were simulated for an inference.
 /// With `options.resume`, finished ones are kept, and unfinished ones go on to the same bytes. One
 /// that fails does not stop the others. Throws ConfigError when `output` cannot be written, or when
-/// a file in it that would be replaced is no run's.
+/// a file in it that would be replaced is no run's,
+/// and for a sequence of poses outside what would be learnt.
 Trained train_models(const Config& config, const RunOptions& options, ProgressBar& bar);
 
 }  // namespace gramloom
