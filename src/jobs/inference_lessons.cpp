@@ -171,7 +171,9 @@ void make_frames(const LessonRun& run, const FrameSequence& sequence) {
   const InferenceModel model = read_inference(model_of(run.files));
   const std::vector<fs::path> files = frames_of(sequence, run.files);
   create_folder(files.front().parent_path());
-  write_inferred(model, poses_of(sequence), files, shown_by(run));
+  const InferredFiles made = write_inferred(model, poses_of(sequence), files, shown_by(run));
+  for (const std::string& note : made.notes)
+    run.bar.message(fmt::format("{}: {}", run.lesson.name, note));
   run.bar.message(fmt::format("{}: {} frames in {}", run.lesson.name, files.size(),
                               files.front().parent_path().string()));
 }
@@ -189,12 +191,14 @@ void check_frames(const ModelEntry& model) {
   } catch (const Error&) {
     return;
   }
-  for (const auto& [key, pose] : {std::pair("pose", task.pose), std::pair("to", task.to)}) try {
+  for (const auto& [key, pose] : {std::pair("pose", task.pose), std::pair("to", task.to)}) {
+    try {
       check_pose(numbers, pose, task.extrapolate);
     } catch (const ConfigError& error) {
       throw ConfigError("{}: '{}' = [{:g}]: {}", model.place, key, fmt::join(pose, ", "),
                         error.what());
     }
+  }
 }
 
 void check_frame_files(const ModelEntry& model, const JobFiles& files,
