@@ -65,8 +65,8 @@ struct Plan {
 /// the memory that is free, is found here, for `check` and for `run`: what is wrong with its
 /// exemplar, what the method refuses, what the files of the results cannot hold. Selected are the
 /// jobs that match `only` (see job_matches). Throws ConfigError for parameters that a method
-/// refuses, for maps that do not fit their picture, and when no job matches
-/// and there is no model that could.
+/// refuses, for maps that do not fit their picture, and when no job matches in a config that trains
+/// no models, which may be what is meant.
 Plan make_plan(const Config& config, const std::string& only = "");
 /// Whether any of its jobs is to be done.
 bool has_selected(const Plan& plan);
