@@ -30,7 +30,9 @@ ExitCode dispatch(int argc, char** argv) {
   app.footer(
       "Exit code: 0 all done; 1 a job failed or got worse; 2 bad usage or config; 130 "
       "interrupted.");
-  const std::vector<Command> commands{add_run(app, {argv, argv + argc}),
+  const std::vector<Command> commands{add_make(app, {argv, argv + argc}),
+                                      add_run(app, {argv, argv + argc}),
+                                      add_new(app),
                                       add_train(app, {argv, argv + argc}),
                                       add_generate(app),
                                       add_check(app),
@@ -45,7 +47,9 @@ ExitCode dispatch(int argc, char** argv) {
                                       add_export(app),
                                       add_benchmark(app),
                                       add_simulate(app),
-                                      add_infer(app)};
+                                      add_infer(app),
+                                      add_manual(app),
+                                      add_completion(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {

@@ -20,7 +20,9 @@ struct Command {
 };
 
 /// Each adds a command to the program's command line. `words` is the command line itself.
+Command add_make(CLI::App& program, const std::vector<std::string>& words);
 Command add_run(CLI::App& program, const std::vector<std::string>& words);
+Command add_new(CLI::App& program);
 Command add_train(CLI::App& program, const std::vector<std::string>& words);
 Command add_generate(CLI::App& program);
 Command add_check(CLI::App& program);
@@ -36,6 +38,9 @@ Command add_export(CLI::App& program);
 Command add_benchmark(CLI::App& program);
 Command add_simulate(CLI::App& program);
 Command add_infer(CLI::App& program);
+/// These two tell of all commands: they are called when the others have been added, or later.
+Command add_manual(CLI::App& program);
+Command add_completion(CLI::App& program);
 
 /// Writes to standard output. A reader who has gone away is no mistake of ours; else throws Error.
 ExitCode print(const std::string& text);

@@ -31,6 +31,23 @@ CLI::Option* add_repeated(CLI::App& command, const std::string& option,
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+CLI::Option* add_spread_options(CLI::App& command, SpreadOptions& options) {
+  CLI::Option* shard =
+      command
+          .add_option("--shard", options.shard,
+                      "do the K-th of N parts of the jobs, others do the rest into the same "
+                      "folder, also on "
+                      "other machines; alone, in a task of a Slurm array: that task's part")
+          ->type_name("[K/N]")
+          ->expected(0, 1);
+  command
+      .add_option("--jobs", options.jobs,
+                  "so many jobs at once, each in a process of its own; 0: as many as threads")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024));
+  return shard;
+}
+
 // Many more threads than cores bring the work to a halt; some more must be allowed, as results of
 // neural methods depend on the number.
 void add_threads(CLI::App& command, int& threads) {

@@ -26,6 +26,14 @@ CLI::Option* add_repeated(CLI::App& command, const std::string& option,
                           std::vector<std::string>& values, const std::string& meaning,
                           const std::string& type);
 
+/// --shard and --jobs; likewise.
+struct SpreadOptions {
+  std::string shard;
+
+  int jobs = 1;
+};
+CLI::Option* add_spread_options(CLI::App& command, SpreadOptions& options);  // --shard
+
 /// --threads; likewise.
 void add_threads(CLI::App& command, int& threads);
 

@@ -42,8 +42,13 @@ RunOptions begin_run(const Config& config, const std::string& output, bool resum
   return options;
 }
 
-ExitCode end_run(const std::filesystem::path& output, const RunSummary& summary, ProgressBar& bar) {
-  const bool shown = show_run(output, bar);
+ExitCode end_run(const RunOptions& options, const RunSummary& summary, ProgressBar& bar) {
+  bool shown = true;
+  if (!options.shard)
+    shown = show_run(options.output, bar);
+  else
+    bar.message(
+        fmt::format("gramloom report {} makes the page of all shards", options.output.string()));
   if (summary.interrupted + summary.left > 0) {
     bar.complaint(fmt::format(
         "gramloom: interrupted, {} of {} jobs are left; --resume goes on",
@@ -55,7 +60,8 @@ ExitCode end_run(const std::filesystem::path& output, const RunSummary& summary,
     bar.complaint("gramloom: interrupted, not all textures are scored; --resume goes on");
     return interrupted;
   }
-  return !shown || summary.failed > 0 ? job_failed : all_done;
+  const bool missing = summary.elsewhere > 0 && !options.shard;
+  return !shown || missing || summary.failed > 0 ? job_failed : all_done;
 }
 
 }  // namespace gramloom

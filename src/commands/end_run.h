@@ -22,6 +22,6 @@ RunOptions begin_run(const Config& config, const std::string& output, bool resum
                      const std::vector<std::string>& words);
 
 /// Writes the page of a run, says what is left of it, and how the program ends.
-ExitCode end_run(const std::filesystem::path& output, const RunSummary& summary, ProgressBar& bar);
+ExitCode end_run(const RunOptions& options, const RunSummary& summary, ProgressBar& bar);
 
 }  // namespace gramloom

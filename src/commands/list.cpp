@@ -2,38 +2,61 @@
 #include <memory>
 
 #include "commands/command.h"
+#include "core/error.h"
+#include "jobs/key_lists.h"
 #include "jobs/listing.h"
 
 namespace gramloom {
 
 namespace {
 
-ExitCode list_topic(const std::string& chosen) {
-  const auto wanted = [&](std::string_view topic) { return chosen.empty() || chosen == topic; };
+// A list as a text, and as JSON.
+struct Topic {
+  std::string name;
+  std::string (*text)();
+  Json (*json)();
+};
+
+const std::vector<Topic>& topics() {
+  static const std::vector<Topic> all{
+      {"methods", list_methods, [] { return to_json_value(method_lists()); }},
+      {"abilities", [] { return list_abilities() + "\n"; }, abilities_json},
+      {"direction", list_direction, [] { return to_json_value(direction_lists()); }},
+      {"networks", list_networks, networks_json},
+      {"models", list_models, models_json},
+      {"patterns", list_patterns, [] { return to_json_value(texture_lists()); }},
+      {"metrics", list_metrics, metrics_json},
+      {"maps", list_maps, [] { return to_json_value(map_lists()); }},
+      {"simulation", list_simulation, [] { return to_json_value(simulation_lists()); }}};
+  return all;
+}
+
+ExitCode list_topic(const std::string& chosen, bool as_json) {
   std::string text;
-  if (wanted("methods")) text += list_methods();
-  if (wanted("abilities")) text += list_abilities() + "\n";
-  if (wanted("direction")) text += list_direction();
-  if (wanted("networks")) text += list_networks();
-  if (wanted("models")) text += list_models();
-  if (wanted("patterns")) text += list_patterns();
-  if (wanted("metrics")) text += list_metrics();
-  if (wanted("maps")) text += list_maps();
-  if (wanted("simulation")) text += list_simulation();
-  return print(text);
+  Json all;
+  for (const Topic& topic : topics()) {
+    if (!chosen.empty() && chosen != topic.name) continue;
+    if (as_json)
+      all[topic.name] = topic.json();
+    else
+      text += topic.text();
+  }
+  if (!as_json) return print(text);
+  return print(to_text(chosen.empty() ? all : all[chosen], 2) + "\n");
 }
 
 }  // namespace
 
 Command add_list(CLI::App& program) {
   const auto topic = std::make_shared<std::string>();
+  const auto as_json = std::make_shared<bool>(false);
   CLI::App* list = program.add_subcommand(
       "list", "List methods, what they can be asked, and what else there is");
-  const std::vector<std::string> topics{"methods",  "abilities", "direction", "networks",  "models",
-                                        "patterns", "metrics",   "maps",      "simulation"};
-  list->add_option("topic", *topic, fmt::format("one of {}", fmt::join(topics, ", ")))
-      ->check(CLI::IsMember(topics));
-  return {list, [topic] { return list_topic(*topic); }};
+  std::vector<std::string> names;
+  for (const Topic& one : topics()) names.push_back(one.name);
+  list->add_option("topic", *topic, "which list; all")->check(CLI::IsMember(names));
+  list->add_flag("--json", *as_json, "for programs: with types, limits and words");
+  return {list, [topic, as_json] { return list_topic(*topic, *as_json); }};
 }
 
 }  // namespace gramloom

@@ -3,19 +3,34 @@
 
 #include "commands/command.h"
 #include "core/error.h"
+#include "jobs/folder_lock.h"
 #include "jobs/output_guard.h"
+#include "jobs/run_log.h"
 #include "report/page.h"
 
 namespace gramloom {
 
 namespace {
 
+// Shards have left records, and what follows from them is to be of all. Not while some still work:
+// they do so at their end.
+void gather_records(const std::string& folder) {
+  std::optional<FileLock> lock;
+  try {
+    lock = lock_folder(folder);
+  } catch (const Error&) {
+  }
+  if (lock) rewrite_run_files(folder);
+}
+
 ExitCode report_run(const std::string& folder) {
   try {
     check_page(folder);
+
   } catch (const Error& error) {
     throw ConfigError("report {}: {}", folder, error.what());
   }
+  gather_records(folder);
   return print(write_page(folder).string() + "\n");
 }
 

@@ -17,6 +17,7 @@
 #include "jobs/output_guard.h"
 #include "jobs/progress_bar.h"
 #include "jobs/runner.h"
+#include "jobs/worker.h"
 #include "runs/format.h"
 
 namespace gramloom {
@@ -25,6 +26,9 @@ namespace {
 
 struct RunArguments {
   ConfigOptions config;
+  SpreadOptions spread;
+  CLI::Option* shard = nullptr;  // --shard, with or without a value
+  int worker = 0;                // the threads of a worker; 0: this is none
   std::string output;
   int threads = 0;
   bool resume = false;
@@ -69,20 +73,41 @@ bool has_neural_jobs(const Config& config) {
   });
 }
 
+// How the jobs are spread over processes. Throws ConfigError.
+void spread(const RunArguments& arguments, const Config& config, RunOptions& options) {
+  const SpreadOptions& asked = arguments.spread;
+  if (arguments.shard->count() > 0) try {
+      options.shard = asked.shard.empty() ? shard_of_slurm() : parse_shard(asked.shard);
+    } catch (const Error& error) {
+      throw ConfigError("--shard: {}", error.what());
+    }
+  if (options.shard && !arguments.baseline.empty())
+    throw ConfigError("--baseline compares a whole run: not with --shard");
+  options.jobs = asked.jobs > 0 ? asked.jobs : thread_count();
+  if (options.jobs > 1 && !std::filesystem::is_regular_file(config.file))
+    throw ConfigError("--jobs {}: {} is no file that each of its processes can read", options.jobs,
+                      config.file.string());
+}
+
 ExitCode run_config(const RunArguments& arguments) {
   keep_large_buffers();
-  set_thread_count(arguments.threads);
+  set_thread_count(arguments.worker > 0 ? arguments.worker : arguments.threads);
   const Config config = read_config(arguments.config.config, arguments.config.set);
   refuse_models(config, "run");
   if (has_neural_jobs(config) && std::filesystem::is_regular_file(config.file))
     bound_spinning(arguments.words);
   RunOptions options = begin_run(config, arguments.output, arguments.resume, arguments.words);
   options.only = arguments.config.only;
+  spread(arguments, config, options);
+  if (arguments.worker > 0) {
+    work_for_parent(config, options);
+    return all_done;
+  }
   const std::optional<Baseline> before = earlier_run(arguments, options);
   if (before) options.inputs = input_files(*before);
   ProgressBar bar(progress_style(arguments.quiet));
   const RunSummary summary = run(config, options, bar);
-  const ExitCode ended = end_run(options.output, summary, bar);
+  const ExitCode ended = end_run(options, summary, bar);
   if (ended == interrupted) return interrupted;
   const bool worse = before && got_worse(*before, config, options, arguments.quiet);
   return worse ? job_failed : ended;
@@ -98,6 +123,8 @@ Command add_run(CLI::App& program, const std::vector<std::string>& words) {
       "Do the jobs of a config. Results of an earlier run into the same folder are replaced "
       "as each job completes; with --resume, finished ones are kept.");
   add_config_options(*run, arguments->config);
+  arguments->shard = add_spread_options(*run, arguments->spread);
+  run->add_option("--worker", arguments->worker)->group("");  // what --jobs starts
   run->add_option("--output", arguments->output, "folder of the results (out/<config's name>)")
       ->type_name("DIR");
   add_threads(*run, arguments->threads);

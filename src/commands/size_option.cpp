@@ -8,7 +8,7 @@ namespace gramloom {
 
 Size size_of(std::string_view option, const std::string& text) {
   constexpr int longest_side = 1'000'000;
-  const auto cross = text.find_first_of("xX");
+  const auto cross = text.find_first_of("xX,");
   const auto number = [&](std::string_view word) {
     int value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);

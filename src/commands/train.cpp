@@ -48,7 +48,7 @@ ExitCode train(const TrainArguments& arguments) {
   const bool nothing_to_show =
       options.only.empty() ? config.methods.empty() : trained.methods.empty();
   if (nothing_to_show) return trained.failed > 0 ? job_failed : all_done;
-  const ExitCode ended = end_run(options.output, run(config, options, bar), bar);
+  const ExitCode ended = end_run(options, run(config, options, bar), bar);
   return ended == all_done && trained.failed > 0 ? job_failed : ended;
 }
 

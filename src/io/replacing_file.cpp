@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <random>
 #include <utility>
 
 #include "core/error.h"
@@ -20,11 +21,18 @@ Error cannot_write(const fs::path& path) {
   return Error("{}: cannot write: {}", path.string(), std::strerror(errno));
 }
 
-/// Another name in the folder of `path`: the process and a count keep writers apart.
+// Keeps writers of other machines in the same folder apart.
+unsigned token() {
+  static const unsigned number = std::random_device{}();
+  return number;
+}
+
+// Another name in the folder of `path`: the process and a count keep writers apart, too.
 fs::path temporary_name(const fs::path& path) {
   static std::atomic<unsigned> count{0};
   // A file name has at most 255 bytes.
-  return path.parent_path() / fmt::format(".{}.{}.{}.tmp", path.filename().string().substr(0, 200),
+  return path.parent_path() / fmt::format(".{}.{:08x}.{}.{}.tmp",
+                                          path.filename().string().substr(0, 200), token(),
                                           getpid(), count.fetch_add(1));
 }
 

@@ -5,8 +5,8 @@
 namespace gramloom {
 
 /// A new file that appears under its name complete or not at all: it is written as a temporary file
-/// in the same folder (".NAME.PID.COUNT.tmp"), which is gone afterwards whatever happens short of
-/// SIGKILL.
+/// in the same folder (".NAME.TOKEN.PID.COUNT.tmp"), which is gone afterwards whatever happens
+/// short of SIGKILL.
 class ReplacingFile {
  public:
   /// Throws Error with the path: no such folder, not writable.

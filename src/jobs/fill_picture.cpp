@@ -1,12 +1,10 @@
 #include "jobs/fill_picture.h"
 
-#include "io/json_text.h"
-#include "jobs/input_files.h"
 #include "jobs/loaded_request.h"
 #include "jobs/machine.h"
 #include "jobs/memory.h"
-#include "jobs/protected_files.h"
 #include "jobs/results.h"
+#include "jobs/written_config.h"
 
 namespace gramloom {
 
@@ -16,27 +14,13 @@ namespace fs = std::filesystem;
 
 constexpr const char* mark = "gramloom:filled";
 
-// A text as TOML writes it; its basic strings are JSON's.
-std::string quoted(const std::string& text) {
-  if (valid_utf8(text) != text)
-    throw ConfigError("fill: the name {} is not UTF-8, as a config must be: rename the file",
-                      valid_utf8(text));
-  return Json(text).dump();
-}
-
-std::string quoted_path(const fs::path& file) {
-  return quoted(fs::absolute(file).lexically_normal().string());
-}
-
 void check_output_file(const FillWork& work, const Config& config) {
   try {
     stored_type(work.output.extension().string(), PixelType::uint8);
     if (is_lossy(work.output.extension().string()))
       throw Error("{} would not keep what is left as it is: choose another format",
                   work.output.string());
-    const fs::path folder = fs::absolute(work.output).parent_path();
-    if (!fs::is_directory(folder)) throw Error("there is no folder {}", folder.string());
-    check_replaced(work.output, ProtectedFiles(input_files(config)), mark);
+    check_result(work.output, config, mark);
   } catch (const Error& error) {
     throw ConfigError("fill: {}", error.what());
   }
@@ -71,12 +55,8 @@ std::string config_of(const FillWork& work) {
     text += fmt::format("seamless = \"{}\"\n", to_word(work.seamless));
   if (work.band > 0) text += fmt::format("band = {}\n", work.band);
   if (!work.extend.empty()) text += fmt::format("extend = [{}]\n", fmt::join(work.extend, ", "));
-  if (!work.from.empty()) {
-    text += "\n[[exemplar]]\nname = \"from\"\nimages = [";
-    for (std::size_t i = 0; i < work.from.size(); ++i)
-      text += fmt::format("{}{}", i > 0 ? ", " : "", quoted_path(work.from[i]));
-    text += "]\n";
-  }
+  if (!work.from.empty())
+    text += "\n[[exemplar]]\nname = \"from\"\nimages = " + quoted_paths(work.from) + "\n";
   return text + fmt::format("\n[[method]]\nname = {0}\nkind = {0}\n", quoted(work.method));
 }
 
@@ -89,7 +69,7 @@ std::vector<std::string> fill_picture(const FillWork& work, const Control& contr
   const Request request{std::move(loaded.exemplars), std::move(loaded.target),
                         Random(static_cast<std::uint64_t>(work.seed))};
   check_possible(work, method, size_of(request));
-  const Texture texture = run_method(method, request, control);
+  const Texture texture = finished_texture(method, request, control);
   Metadata metadata = std::move(loaded.metadata);
   metadata[mark] = version();
   std::vector<std::string> notes = std::move(loaded.notes);

@@ -1,28 +1,51 @@
 #include "jobs/folder_lock.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <utility>
+#include <chrono>
+#include <string>
+#include <thread>
 
 #include "core/error.h"
 
 namespace gramloom {
 
-FolderLock::FolderLock(const std::filesystem::path& folder)
-    : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  if (descriptor_ < 0 || flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  close(std::exchange(descriptor_, -1));
-  throw Error("another run is writing there");
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr auto patience = 10s;  // for another to begin
+constexpr auto pause = 20ms;
+
+fs::path lock_of(const fs::path& folder) { return folder / "run.lock"; }
+
+[[noreturn]] void refuse(const fs::path& folder) {
+  const std::string holder = holder_of(lock_of(folder));
+  throw Error("another run is writing there{}", holder.empty() ? "" : " (" + holder + ")");
 }
 
-FolderLock::~FolderLock() {
-  if (descriptor_ >= 0) close(descriptor_);
+}  // namespace
+
+std::optional<FileLock> lock_folder(const fs::path& folder) {
+  std::optional<FileLock> lock;
+  try {
+    lock = FileLock::take(lock_of(folder), FileLock::Mode::exclusive);
+  } catch (const Error&) {
+    return std::nullopt;  // a folder that cannot be written is named by what is written first
+  }
+  if (!lock) refuse(folder);
+  return lock;
 }
 
-FolderLock::FolderLock(FolderLock&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)) {}
+SharedFolder share_folder(const fs::path& folder) {
+  const auto end = std::chrono::steady_clock::now() + patience;
+  do {
+    if (auto lock = FileLock::take(lock_of(folder), FileLock::Mode::exclusive))
+      return {std::move(*lock), true};
+    if (auto lock = FileLock::take(lock_of(folder), FileLock::Mode::shared))
+      return {std::move(*lock), false};
+    std::this_thread::sleep_for(pause);
+  } while (std::chrono::steady_clock::now() < end);
+  refuse(folder);
+}
 
 }  // namespace gramloom

@@ -1,22 +1,25 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+
+#include "runs/file_lock.h"
 
 namespace gramloom {
 
-/// Keeps a second run out of a folder for as long as it lives. The lock is on the folder itself
-/// (flock), so that it leaves no file and ends with the process, however that ends.
-class FolderLock {
- public:
-  /// Throws Error when another process holds the lock. Where the file system has no locks there is
-  /// none.
-  explicit FolderLock(const std::filesystem::path& folder);
-  ~FolderLock();
-  FolderLock(FolderLock&& other) noexcept;
-  FolderLock& operator=(FolderLock&&) = delete;
+// Who may write into a run's folder is told by the lock run.lock in it.
 
- private:
-  int descriptor_;
+/// Keeps all others out. None where the file system has no locks. Throws Error "another run is
+/// writing there".
+std::optional<FileLock> lock_folder(const std::filesystem::path& folder);
+
+/// The first of those that share a folder is alone with it for a moment, to begin what they share.
+struct SharedFolder {
+  FileLock lock;
+  bool alone = false;  // until lock.share()
 };
+/// Keeps those out that want a folder for themselves. Waits some seconds for one that begins.
+/// Throws Error when another keeps all out, or when the file system has no locks.
+SharedFolder share_folder(const std::filesystem::path& folder);
 
 }  // namespace gramloom

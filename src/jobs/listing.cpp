@@ -3,54 +3,72 @@
 #include <algorithm>
 
 #include "core/variants.h"
-#include "io/field_values.h"
 #include "io/models_folder.h"
+#include "jobs/key_lists.h"
 #include "jobs/memory.h"
 #include "jobs/progress_bar.h"
-#include "jobs/simulation.h"
 #include "jobs/text_table.h"
 #include "learnt/generator_model.h"
 #include "learnt/model_file.h"
 #include "metrics/map_scores.h"
 #include "neural/network/network_description.h"
-#include "surface/maps.h"
-#include "surface/photo.h"
-#include "surface/preview_params.h"
 
 namespace gramloom {
 
 namespace {
 
-// A row for each parameter of Params' own.
-template <class Params>
-std::vector<Row> parameter_rows() {
-  const Params defaults;
+// A row for each key.
+std::vector<Row> rows_of(const KeyList& list) {
   std::vector<Row> rows;
-  for_each_field<Params>([&](const auto& field) {
-    using T = typename std::decay_t<decltype(field)>::value_type;
-    const std::string unit = field.unit.empty() ? "" : fmt::format(" ({})", field.unit);
-    rows.push_back({std::string(field.name), "= " + value_to_text(defaults.*field.member),
-                    allowed_values<T>(field.range), fmt::format("{}{}", field.meaning, unit)});
-  });
+  for (const Key& key : list.keys) {
+    const std::string standard = default_text(key);
+    rows.push_back(
+        {key.name, standard.empty() ? "" : "= " + standard, key.allowed, meaning_of(key)});
+  }
   return rows;
 }
 
-// "takes: exemplar, mask", or what a method of formulas takes.
-std::string ability_line(Abilities abilities) {
-  std::vector<std::string_view> words;
-  for (std::size_t i = 0; i < enum_names<Ability>.size(); ++i)
-    if (abilities.has(static_cast<Ability>(i))) words.push_back(enum_names<Ability>[i]);
-  return words.empty() ? "takes no exemplar" : fmt::format("can: {}", fmt::join(words, ", "));
+// A summary, then a row for each key, of every list.
+std::string text_of(const std::vector<KeyList>& lists) {
+  std::string text;
+  for (const KeyList& list : lists)
+    text += fmt::format("{}: {}\n{}\n", list.name, list.summary, text_table(rows_of(list), "  "));
+  return text;
 }
 
-template <class Textures>
-std::string list_textures() {
-  std::string text;
-  for_each_alternative<Textures>([&]<class T>(std::type_identity<T>) {
-    text += fmt::format("{}: {}\n", T::name, T::summary);
-    text += text_table(parameter_rows<T>(), "  ") + "\n";
-  });
-  return text;
+// "can: exemplar, mask", or what a method of formulas takes.
+std::string ability_line(const KeyList& method) {
+  return method.abilities.empty() ? "takes no exemplar"
+                                  : fmt::format("can: {}", fmt::join(method.abilities, ", "));
+}
+
+struct TrainedModel {
+  std::string name, kind;
+  std::vector<std::string> materials;
+};
+
+// Those of the models folder.
+std::vector<TrainedModel> trained_models() {
+  std::vector<TrainedModel> models;
+  for (const auto& file : models_in_folder(".safetensors")) {
+    TrainedModel model{file.stem().string(), "", {}};
+    try {
+      model.kind = model_kind(file);
+    } catch (const Error&) {
+      continue;  // weights of others, such as VGG-19's
+    }
+    if (model.kind == "generator")
+      for (const GeneratorMaterial& material : read_generator_description(file).materials)
+        model.materials.push_back(material.name);
+    models.push_back(std::move(model));
+  }
+  return models;
+}
+
+std::vector<Metric> all_metrics() {
+  std::vector<Metric> all(metrics().begin(), metrics().end());
+  all.insert(all.end(), map_metrics().begin(), map_metrics().end());
+  return all;
 }
 
 // Why a job cannot be done, or cannot be scored; "" when all is well.
@@ -74,16 +92,9 @@ std::string memory_text(double bytes) { return fmt::format("{:.2f} GB", bytes / 
 
 std::string list_methods() {
   std::string text;
-  for_each_alternative<Method>([&]<class Params>(std::type_identity<Params>) {
-    text += fmt::format("{}: {}\n", Params::kind, Params::summary);
-    text += fmt::format("  {}\n", ability_line(Params::abilities));
-    std::vector<Row> rows = parameter_rows<Params>();
-    if constexpr (HasVariant<Params>)
-      rows.insert(rows.begin(),
-                  {std::string(Params::variant_key), "", "a name",
-                   "which one, with its own parameters: see 'gramloom list patterns'"});
-    text += text_table(rows, "  ") + "\n";
-  });
+  for (const KeyList& method : method_lists())
+    text += fmt::format("{}: {}\n  {}\n{}\n", method.name, method.summary, ability_line(method),
+                        text_table(rows_of(method), "  "));
   return text;
 }
 
@@ -108,24 +119,20 @@ std::string list_abilities() {
 
 std::string list_direction() {
   std::string text;
-  for_each_direction(Direction(), [&]<class Entry>(const std::optional<Entry>&) {
-    text += fmt::format("[{}]\n", Entry::section);
-    text += text_table(parameter_rows<Entry>(), "  ") + "\n";
-  });
+  for (const KeyList& list : direction_lists())
+    text += fmt::format("[{}]\n{}\n", list.name, text_table(rows_of(list), "  "));
   return text;
 }
 
 std::string list_patterns() {
   std::string text;
-  for_each_alternative<Method>([&]<class Params>(std::type_identity<Params>) {
-    if constexpr (HasVariant<Params>) {
-      text +=
-          fmt::format("Every {} = … of the kind '{}' has:\n", Params::variant_key, Params::kind);
-      text += text_table(parameter_rows<Params>(), "  ") + "\n";
-      text += list_textures<decltype(Params::texture)>();
-    }
-  });
-  return text;
+  for (const KeyList& method : method_lists()) {
+    const auto& keys = method.keys;
+    if (method.name != ProceduralParams::kind) continue;
+    text += fmt::format("Every {} = … of the kind '{}' has:\n", keys.front().name, method.name);
+    text += text_table(rows_of({method.name, "", {}, {keys.begin() + 1, keys.end()}}), "  ") + "\n";
+  }
+  return text + text_of(texture_lists());
 }
 
 std::string list_networks() {
@@ -135,30 +142,57 @@ std::string list_networks() {
   return text_table(rows, "") + "\n";
 }
 
+std::vector<std::string> network_names() {
+  std::vector<std::string> names;
+  for (const auto& file : known_networks()) names.push_back(file.stem().string());
+  return names;
+}
+
 std::string list_models() {
   std::string text;
-  for_each_alternative<ModelRecipe>([&]<class Recipe>(std::type_identity<Recipe>) {
-    text += fmt::format("A [[model]] of kind = \"{}\", {}, has:\n", Recipe::kind, Recipe::summary);
-    text += text_table(parameter_rows<Recipe>(), "  ") + "\n";
-  });
-  std::vector<Row> rows;
-  for (const auto& file : models_in_folder(".safetensors")) {
-    std::string kind;
-    try {
-      kind = model_kind(file);
-    } catch (const Error&) {
-      continue;  // weights of others, such as VGG-19's
-    }
-    if (kind != "generator") {
-      rows.push_back({file.stem().string(), kind, ""});
-      continue;
-    }
-    std::vector<std::string> materials;
-    for (const GeneratorMaterial& material : read_generator_description(file).materials)
-      materials.push_back(material.name);
-    rows.push_back({file.stem().string(), kind, fmt::format("of {}", fmt::join(materials, ", "))});
+  for (const KeyList& recipe : model_lists()) {
+    text += fmt::format("A [[model]] of kind = \"{}\", {}, has:\n", recipe.name, recipe.summary);
+    text += text_table(rows_of(recipe), "  ") + "\n";
   }
+  std::vector<Row> rows;
+  for (const TrainedModel& model : trained_models())
+    rows.push_back(
+        {model.name, model.kind,
+         model.materials.empty() ? "" : fmt::format("of {}", fmt::join(model.materials, ", "))});
   return text + "Trained models that come with gramloom:\n" + text_table(rows, "  ") + "\n";
+}
+
+Json abilities_json() {
+  Json json;
+  for (const KeyList& method : method_lists()) json[method.name] = method.abilities;
+  return json;
+}
+
+Json networks_json() {
+  auto json = Json::array();
+  for (const auto& file : known_networks())
+    json.push_back({{"name", file.stem().string()}, {"summary", read_network(file).summary}});
+  return json;
+}
+
+Json models_json() {
+  auto trained = Json::array();
+  for (const TrainedModel& model : trained_models())
+    trained.push_back({{"name", model.name}, {"kind", model.kind}, {"materials", model.materials}});
+  return {{"recipes", to_json_value(model_lists())}, {"trained", trained}};
+}
+
+Json metrics_json() {
+  auto json = Json::array();
+  for (const Metric& metric : all_metrics())
+    json.push_back({{"name", metric.name},
+                    {"group", metric.group},
+                    {"description", metric.meaning},
+                    {"range", metric.range},
+                    {"higher_is_better", metric.higher_is_better},
+                    {"paper", metric.paper},
+                    {"fooled_by", metric.fooled_by}});
+  return json;
 }
 
 std::string job_table(const Config& config, const Plan& plan) {
@@ -188,26 +222,13 @@ std::string job_table(const Config& config, const Plan& plan) {
          fmt::format("{} {}, about {}\n", count, count == 1 ? "job" : "jobs", clock_text(seconds));
 }
 
-namespace {
+std::string list_maps() { return text_of(map_lists()); }
 
-template <class... Params>
-std::string list_named() {
-  return (fmt::format("{}: {}\n{}\n", Params::name, Params::summary,
-                      text_table(parameter_rows<Params>(), "  ")) +
-          ...);
-}
-
-}  // namespace
-
-std::string list_maps() { return list_named<SurfaceParams, PhotoParams, PreviewParams>(); }
-
-std::string list_simulation() { return list_named<SimulationParams, ClothParams>(); }
+std::string list_simulation() { return text_of(simulation_lists()); }
 
 std::string list_metrics() {
   std::string text;
-  std::vector<Metric> all(metrics().begin(), metrics().end());
-  all.insert(all.end(), map_metrics().begin(), map_metrics().end());
-  for (const Metric& metric : all) {
+  for (const Metric& metric : all_metrics()) {
     text += fmt::format("{} ({}): {}\n", metric.name, metric.group, metric.meaning);
     text += fmt::format("  {}; {} is better; {}\n", metric.range,
                         metric.higher_is_better ? "more" : "less", metric.paper);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "io/json_text.h"
 #include "jobs/config.h"
 #include "jobs/plan.h"
 
@@ -19,8 +21,15 @@ std::string list_direction();
 std::string list_patterns();
 /// The network descriptions of the models folder, by the name that a config uses.
 std::string list_networks();
+std::vector<std::string> network_names();
 /// What a model to train has, and the trained models of the models folder.
 std::string list_models();
+
+/// The same lists for programs; those of key lists follow from jobs/key_lists.h.
+Json abilities_json();
+Json networks_json();
+Json models_json();
+Json metrics_json();
 
 /// The selected jobs with their estimated memory and time, and what keeps one from running.
 std::string job_table(const Config& config, const Plan& plan);

@@ -61,6 +61,26 @@ Method read_method(const toml::table& table) {
   return method;
 }
 
+Method method_of(const std::string& kind, const std::string& texture,
+                 const std::vector<std::string>& set) {
+  toml::table table;
+  table.insert_or_assign("kind", kind);
+  table.insert_or_assign("name", kind);
+  for (const std::string& option : set) {
+    const std::size_t equals = option.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw ConfigError("--set {}: must be key=value", option);
+    const std::string key = option.substr(0, equals);
+    toml::table given = parse_override(key, option.substr(equals + 1), option);
+    table.insert_or_assign(given.begin()->first, std::move(given.begin()->second));
+  }
+  if (!texture.empty()) {
+    toml::table chosen = parse_override("texture", texture, "texture=" + texture);
+    table.insert_or_assign("texture", std::move(*chosen.get("texture")));
+  }
+  return read_method(table);
+}
+
 std::vector<std::string> method_keys(const toml::table& table) {
   try {
     return keys_of(default_method(table));

@@ -9,6 +9,7 @@
 #include "io/image_file.h"
 #include "jobs/keep_exemplar.h"
 #include "jobs/protected_files.h"
+#include "runs/file_lock.h"
 #include "runs/job_files.h"
 #include "runs/own_files.h"
 #include "runs/record.h"
@@ -74,6 +75,7 @@ class Guard {
     check(output_ / "scores.csv", is_score_sheet);
     check(output_ / "index.html", is_page);
     check(output_ / "baseline.json", is_comparison);
+    check(output_ / "run.lock", is_lock);
   }
 
   // "exemplar.png" and "exemplar_height.png" beside the folders of the exemplar's jobs.
@@ -94,6 +96,8 @@ class Guard {
       folder_ = files.folder;
       names_ = names_in(folder_);
     }
+    check(files.lock, is_lock);
+    check(files.folder / "diversity.json", is_diversity);
     const auto is_map = map_names(planned.job);
     std::optional<std::optional<JobRecord>> record;  // read when there is a file to ask about
     for (auto name = std::lower_bound(names_.begin(), names_.end(), files.name);

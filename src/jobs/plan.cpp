@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/abilities.h"
+#include "core/threads.h"
 #include "jobs/loaded_request.h"
 #include "jobs/pattern.h"
 #include "jobs/results.h"
@@ -47,7 +48,7 @@ void check_height(const Config& config, const ExemplarEntry& exemplar,
 }
 
 ExemplarFacts look_at(const Config& config, std::size_t number) {
-  ExemplarFacts facts;
+  ExemplarFacts facts{true, {}, {}, ""};
   const ExemplarEntry& exemplar = config.exemplars[number];
   try {
     LoadedRequest loaded = load_request(config, number);
@@ -203,23 +204,37 @@ bool has_selected(const Plan& plan) {
 }
 
 Plan make_plan(const Config& config, const std::string& only) {
+  Plan plan = list_jobs(config, only);
+  // Decoding is most of the work, and waiting for the disk.
+  const auto exemplars = static_cast<std::int64_t>(config.exemplars.size());
+  parallel_for(exemplars, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i)
+      plan.exemplars[static_cast<std::size_t>(i)] = look_at(config, static_cast<std::size_t>(i));
+  });
+  for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
+    PlannedJob& planned = plan.jobs[i];
+    const PlannedJob* before = i > 0 ? &plan.jobs[i - 1] : nullptr;
+    // Seeds cost the same.
+    if (before && before->job.method == planned.job.method &&
+        before->job.exemplar == planned.job.exemplar) {
+      planned.cost = before->cost;
+      planned.finishing = before->finishing;
+      planned.scoring = before->scoring;
+      planned.error = before->error;
+    } else {
+      plan_job(config, plan, i);
+    }
+  }
+  plan.diversities = plan_diversities(config, plan);
+  return plan;
+}
+
+Plan list_jobs(const Config& config, const std::string& only) {
   Plan plan;
-  for (std::size_t i = 0; i < config.exemplars.size(); ++i)
-    plan.exemplars.push_back(look_at(config, i));
+  plan.exemplars.resize(config.exemplars.size());
   for (const Job& job : all_jobs(config)) {
     PlannedJob planned{job, job_name(config, job), {}, {}, {}, {}, true};
     planned.selected = job_matches(only, planned.name);
-    // Seeds cost the same.
-    const bool first_seed = plan.jobs.empty() || plan.jobs.back().job.method != job.method ||
-                            plan.jobs.back().job.exemplar != job.exemplar;
-    if (first_seed) {
-      estimate_job(config, plan, planned);
-    } else {
-      planned.cost = plan.jobs.back().cost;
-      planned.finishing = plan.jobs.back().finishing;
-      planned.scoring = plan.jobs.back().scoring;
-      planned.error = plan.jobs.back().error;
-    }
     plan.jobs.push_back(std::move(planned));
   }
   if (plan.jobs.empty()) return plan;  // there are only models to train
@@ -228,8 +243,14 @@ Plan make_plan(const Config& config, const std::string& only) {
         "--only {}: no job of {} matches (* stands for any letters, ? for one, all else for "
         "itself); they are called like {}",
         only, config.file.string(), plan.jobs.front().name);
-  plan.diversities = plan_diversities(config, plan);
   return plan;
+}
+
+void plan_job(const Config& config, Plan& plan, std::size_t number) {
+  PlannedJob& planned = plan.jobs.at(number);
+  if (const auto exemplar = planned.job.exemplar; exemplar && !plan.exemplars[*exemplar].known)
+    plan.exemplars[*exemplar] = look_at(config, *exemplar);
+  estimate_job(config, plan, planned);
 }
 
 std::string scoring_refusal(const PlannedJob& job, double available) {

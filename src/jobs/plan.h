@@ -32,6 +32,7 @@ bool job_matches(const std::string& pattern, const std::string& job);
 
 /// What is known of an exemplar before its jobs run.
 struct ExemplarFacts {
+  bool known = false;   // false: nothing has looked yet
   RequestSize request;  // of its jobs; exemplars after max_side
   std::vector<ExemplarFile> files;
   std::string error;  // why it cannot be read, or taken by a method; its jobs fail with this
@@ -61,12 +62,20 @@ struct Plan {
   std::vector<PlannedDiversity> diversities;
 };
 
-/// Reads every exemplar once and estimates every job. All that keeps a job from running, but for
-/// the memory that is free, is found here, for `check` and for `run`: what is wrong with its
-/// exemplar, what the method refuses, what the files of the results cannot hold. Selected are the
-/// jobs that match `only` (see job_matches). Throws ConfigError for parameters that a method
-/// refuses, for maps that do not fit their picture, and when no job matches in a config that trains
+/// The jobs of a config, of which nothing is known. Selected are those that match `only` (see
+/// job_matches). Throws ConfigError when there are jobs and none matches, in a config that trains
 /// no models, which may be what is meant.
+Plan list_jobs(const Config& config, const std::string& only = "");
+
+/// Reads the exemplar of the plan's job of this number, unless it is known, and estimates the job.
+/// Throws ConfigError as make_plan() does.
+void plan_job(const Config& config, Plan& plan, std::size_t number);
+
+/// list_jobs(), and then reads every exemplar once and estimates every job. All that keeps a job
+/// from running, but for the memory that is free, is found here, for `check` and for `run`: what is
+/// wrong with its exemplar, what the method refuses, what the files of the results cannot hold.
+/// Throws ConfigError for parameters that a method refuses, for maps that do not fit their picture,
+/// and where list_jobs() does.
 Plan make_plan(const Config& config, const std::string& only = "");
 /// Whether any of its jobs is to be done.
 bool has_selected(const Plan& plan);

@@ -67,7 +67,41 @@ void ProgressBar::start(const std::string& job, std::size_t number, std::size_t 
   shown_part_ = 0;
 }
 
+// Of a bar often, of lines when enough has happened.
+bool ProgressBar::is_time(double part) const {
+  const double waited = seconds_since(shown_);
+  return style_ == ProgressStyle::bar
+             ? waited >= bar_interval
+             : waited >= line_interval ||
+                   (waited >= shortest_line && part >= shown_part_ + line_part);
+}
+
+void ProgressBar::show(double part, const std::string& text) {
+  shown_ = Clock::now();
+  shown_part_ = part;
+  if (style_ == ProgressStyle::lines) {
+    put(fmt::format("{}: {}\n", job_, text));
+  } else {
+    put("\r" + fmt::format("{} {}  {}", bar(part), text, job_).substr(0, terminal_width() - 1) +
+        "\033[K");
+    bar_drawn_ = true;
+  }
+}
+
+void ProgressBar::show_jobs(double parts, std::size_t done, std::size_t count,
+                            const std::string& at_work) {
+  if (style_ == ProgressStyle::quiet || count == 0) return;
+  if (job_.empty()) start("run", 1, 1);
+  const double part = parts / static_cast<double>(count);
+  if (!is_time(part)) return;
+  std::string text = fmt::format("{:3.0f}%  {} of {} jobs", part * 100, done, count);
+  if (part > 0)
+    text += fmt::format("  {} left", clock_text(seconds_since(started_) / part * (1 - part)));
+  show(part, text + "  " + at_work);
+}
+
 void ProgressBar::update(const Progress& progress) {
+  if (listener_) listener_(progress);
   if (style_ == ProgressStyle::quiet) return;
   if (first_step_ < 0) {
     // A job that goes on from a checkpoint begins in the middle.
@@ -75,13 +109,7 @@ void ProgressBar::update(const Progress& progress) {
     shown_part_ = part_done(progress);
   }
   const double part = part_done(progress);
-  const double waited = seconds_since(shown_);
-  if (style_ == ProgressStyle::bar
-          ? waited < bar_interval
-          : waited < line_interval && (waited < shortest_line || part < shown_part_ + line_part))
-    return;
-  shown_ = Clock::now();
-  shown_part_ = part;
+  if (!is_time(part)) return;
 
   std::string text = fmt::format("{:3.0f}%  step {}/{}", part * 100, progress.step, progress.steps);
   if (std::isfinite(progress.loss)) text += fmt::format("  loss {:.3e}", progress.loss);
@@ -89,13 +117,7 @@ void ProgressBar::update(const Progress& progress) {
     text +=
         fmt::format("  {} left", clock_text(seconds_since(started_) / static_cast<double>(steps) *
                                             static_cast<double>(progress.steps - progress.step)));
-  if (style_ == ProgressStyle::lines) {
-    put(fmt::format("{}: {}\n", job_, text));
-  } else {
-    text = fmt::format("{} {}  {}", bar(part), text, job_).substr(0, terminal_width() - 1);
-    put("\r" + text + "\033[K");
-    bar_drawn_ = true;
-  }
+  show(part, text);
 }
 
 void ProgressBar::clear() {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <string>
 
 #include "core/progress.h"
@@ -28,6 +29,10 @@ class ProgressBar {
   /// Job `number` of `count` begins.
   void start(const std::string& job, std::size_t number, std::size_t count);
   void update(const Progress& progress);
+  /// Several jobs at once: so many are done, with parts of those at work, whose names follow.
+  void show_jobs(double parts, std::size_t done, std::size_t count, const std::string& at_work);
+  /// Calls this for each update, too.
+  void listen(std::function<void(const Progress&)> listener) { listener_ = std::move(listener); }
   /// A line that stays: how a job went. Not shown when quiet.
   void message(const std::string& line);
   /// A line that stays and is always shown.
@@ -36,9 +41,12 @@ class ProgressBar {
  private:
   using Clock = std::chrono::steady_clock;
 
+  bool is_time(double part) const;
+  void show(double part, const std::string& text);
   void clear();
 
   ProgressStyle style_;
+  std::function<void(const Progress&)> listener_;
   std::string job_;
   Clock::time_point started_;
   Clock::time_point shown_;

@@ -253,6 +253,25 @@ Control shown_work(Run& run) {
   return control;
 }
 
+JobRecord fail_job(Run& run, const PlannedJob& planned, bool made, const std::string& why) {
+  const JobFiles files = job_files(run.options.output, planned.name);
+  JobRecord record = new_record(run, planned.job);
+  const auto before = find_record(files.record);
+  if (made && before) {
+    record = *before;
+    record.score_error = why;
+  } else {
+    record.status = Status::failed;
+    record.error = why;
+  }
+  try {
+    write_record(files.record, record);
+  } catch (const Error&) {
+    // The terminal says so.
+  }
+  return record;
+}
+
 JobRecord run_job(Run& run, const PlannedJob& planned) {
   const JobFiles files = job_files(run.options.output, planned.name);
   JobRecord record = new_record(run, planned.job);

@@ -71,6 +71,10 @@ const SourceMap& source_of(Run& run, const PlannedJob& planned);
 /// Shows the progress of work that leaves nothing to keep when the user stops it.
 Control shown_work(Run& run);
 
+/// The record of a job whose process is gone, with why: written in place of the one that is there,
+/// or, of a texture that is `made` but not scored, as its score_error.
+JobRecord fail_job(Run& run, const PlannedJob& planned, bool made, const std::string& why);
+
 /// Makes the job's texture. The record is returned when all files are on disk; what goes wrong is
 /// in it. A finished result stays as it is until the one that replaces it is complete, or has
 /// failed.

@@ -10,6 +10,7 @@
 #include "metrics/scores.h"
 #include "runs/format.h"
 #include "runs/job_files.h"
+#include "runs/run_folder.h"
 #include "runs/score_sheet.h"
 
 namespace gramloom {
@@ -19,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds between_writes{1};
+constexpr int pauses = 50;  // between two times of writing, at least, in such times
 
 // "2026-11-22T08:15:00Z"
 std::string now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
@@ -51,14 +53,23 @@ std::vector<std::string> metric_names() {
   return names;
 }
 
+void write_run_files(const fs::path& folder, RunRecord run, const std::vector<NamedRecord>& jobs,
+                     const std::vector<SeedDiversity>& diversity) {
+  run.jobs.clear();
+  for (const auto& [name, record] : jobs) run.jobs.emplace_back(name, standing_of(record));
+  run.diversity = valid_diversity(diversity, jobs);
+  write_format(folder / "run.json", run);
+  write_text(folder / "scores.csv", to_csv(score_sheet(jobs, run.diversity, metric_names())));
+}
+
 bool is_of(const SeedDiversity& a, const SeedDiversity& b) {
   return a.exemplar == b.exemplar && a.method == b.method;
 }
 
 }  // namespace
 
-RunLog::RunLog(const Config& config, const Plan& plan, const RunOptions& options)
-    : folder_(options.output) {
+RunLog::RunLog(const Config& config, const Plan& plan, const RunOptions& options, bool begins)
+    : folder_(options.output), shared_(options.shard.has_value()) {
   run_.date = now();
   run_.command = options.command;
   run_.versions = versions();
@@ -71,8 +82,13 @@ RunLog::RunLog(const Config& config, const Plan& plan, const RunOptions& options
     index_[planned.name] = jobs_.size();
     jobs_.push_back({planned.name, record_of(config, planned, folder_)});
   }
-  run_.diversity = earlier_diversity(folder_ / "run.json");
-  write();
+  run_.diversity = find_diversity(folder_, jobs_, earlier_diversity(folder_ / "run.json"));
+  if (begins) {
+    write();
+  } else if (const auto other = read_format<RunRecord>(folder_ / "run.json");
+             other.settings != run_.settings) {
+    throw Error("another config, or with other --set, is run there by others: {}", other.config);
+  }
 }
 
 RunLog::~RunLog() {
@@ -85,11 +101,8 @@ RunLog::~RunLog() {
 
 void RunLog::set(const std::string& name, const JobRecord& record) {
   jobs_[index_.at(name)].record = record;
+  if (shared_) own_.insert(name);
   behind_ = true;
-}
-
-SeedDiversity RunLog::finished(const std::string& exemplar, const std::string& method) const {
-  return diversity_of_records(exemplar, method, jobs_);
 }
 
 bool RunLog::knows(const SeedDiversity& diversity) const {
@@ -105,23 +118,39 @@ void RunLog::set(const SeedDiversity& diversity) {
 }
 
 void RunLog::keep_up() {
-  if (behind_ && std::chrono::steady_clock::now() - written_ >= between_writes) write();
+  const auto pause =
+      std::max<std::chrono::steady_clock::duration>(between_writes, pauses * writing_);
+  if (!shared_ && behind_ && std::chrono::steady_clock::now() - written_ >= pause) write();
 }
 
 void RunLog::finish() {
-  if (behind_) write();
+  if (!behind_) return;
+  if (shared_) read_jobs_of_others();
+  write();
+}
+
+void RunLog::read_jobs_of_others() {
+  for (NamedRecord& job : jobs_)
+    if (!own_.contains(job.name))
+      if (auto record = find_record(job_files(folder_, job.name).record))
+        job.record = std::move(*record);
+  run_.diversity = find_diversity(folder_, jobs_, run_.diversity);
 }
 
 void RunLog::write() {
   // Also after a failure: a full disk is not asked again at each step of a job.
   written_ = std::chrono::steady_clock::now();
-  RunRecord content = run_;
-  for (const auto& [name, record] : jobs_) content.jobs.emplace_back(name, standing_of(record));
-  content.diversity = valid_diversity(run_.diversity, jobs_);
-  write_format(folder_ / "run.json", content);
-  write_text(folder_ / "scores.csv", to_csv(score_sheet(jobs_, content.diversity, metric_names())));
+  write_run_files(folder_, run_, jobs_, run_.diversity);
+  writing_ = std::chrono::steady_clock::now() - written_;
   behind_ = false;
   ++writes_;
+}
+
+void rewrite_run_files(const fs::path& folder) {
+  RunOnDisk run = read_run(folder);
+  std::vector<NamedRecord> jobs;
+  for (JobOnDisk& job : run.jobs) jobs.push_back({job.name, std::move(job.record)});
+  write_run_files(folder, std::move(run.run), jobs, run.diversity);
 }
 
 }  // namespace gramloom

@@ -2,12 +2,14 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "jobs/config.h"
 #include "jobs/input_files.h"
 #include "jobs/progress_bar.h"
+#include "jobs/shard.h"
 
 namespace gramloom {
 
@@ -17,6 +19,8 @@ struct RunOptions {
   bool resume = false;               // keep finished jobs, go on with unfinished ones
   std::function<bool()> stop;        // true once the user has asked to stop
   std::vector<std::string> command;  // the command line, for run.json
+  std::optional<Shard> shard;        // this process does a part of the jobs, others do the rest
+  int jobs = 1;                      // so many at once, each in a process of its own
   bool is_default_output = false;    // the user named no folder: it is for this config alone
   std::vector<InputFile> inputs;     // that must stay as they are, beside those of the config
 };
@@ -28,20 +32,25 @@ struct RunSummary {
   int failed = 0;
   int interrupted = 0;
   int left = 0;
+  int elsewhere = 0;      // another process is doing them
   bool unscored = false;  // the user stopped the scoring of a texture
   int writes = 0;         // of run.json and scores.csv
 };
 
 /// Does the jobs of a config one after another and leaves on disk, in `output`:
 ///   run.json                         versions, machine, settings, every job's status, diversity
-///   scores.csv                       a line a job: time, memory, scores; both are written at the
-///                                    start, at most once a second, and at the end
+///   scores.csv                       a line a job: time, memory, scores; both follow from the
+///                                    records and are written at the start, at the end and now
+///                                    and then (run_log.h)
 ///   <exemplar>/exemplar.png          the exemplar as the methods saw it (.exr, .tif)
 ///   <exemplar>/<method>/seed<N>.png  the texture (.exr, .tif), its maps as seed<N>_<map>.png
 ///   <exemplar>/<method>/seed<N>.copy_map.png  where each pixel came from (metrics/scores.h)
 ///   <exemplar>/<method>/seed<N>.csv  the trace of an iterative method
 ///   <exemplar>/<method>/seed<N>.json the record, written last, and again with the scores
 ///   <exemplar>/<method>/seed<N>.checkpoint[.csv]  state of an unfinished job
+///   <exemplar>/<method>/seed<N>.lock  while a process does the job
+///   <exemplar>/<method>/diversity.json  how unlike the textures of several seeds are
+///   run.lock                         while a process writes there
 /// Textures made from an exemplar are scored against it, unless the config says scores = false.
 /// A job that fails says so in its record and does not stop the others. A finished result stays as
 /// it is until the one that replaces it is complete, or has failed.

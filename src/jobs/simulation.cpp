@@ -161,7 +161,7 @@ fs::path make_simulation(const Simulation& simulation, const fs::path& folder,
   } catch (const Error& error) {
     throw ConfigError("--output {}: {}", folder.string(), error.what());
   }
-  const FolderLock lock(folder);
+  const auto lock = lock_folder(folder);
   const std::vector<PosedSleeve> made = simulate(simulation, control);
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < made.size(); ++i) {

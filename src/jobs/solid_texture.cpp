@@ -1,7 +1,5 @@
 #include "jobs/solid_texture.h"
 
-#include "core/error.h"
-#include "io/toml_reader.h"
 #include "jobs/method_reader.h"
 #include "surface/maps.h"
 #include "surface/shading.h"
@@ -9,24 +7,6 @@
 namespace gramloom {
 
 namespace {
-
-// The method that a config would have with this texture and these parameters.
-ProceduralParams read_params(const std::string& name, const std::vector<std::string>& set) {
-  toml::table table;
-  table.insert_or_assign("kind", "procedural");
-  table.insert_or_assign("name", name);
-  for (const std::string& option : set) {
-    const std::size_t equals = option.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw ConfigError("--set {}: must be key=value", option);
-    const std::string key = option.substr(0, equals);
-    toml::table given = parse_override(key, option.substr(equals + 1), option);
-    table.insert_or_assign(given.begin()->first, std::move(given.begin()->second));
-  }
-  toml::table texture = parse_override("texture", name, "texture=" + name);
-  table.insert_or_assign("texture", std::move(*texture.get("texture")));
-  return std::get<ProceduralParams>(read_method(table));
-}
 
 Vec3 linear_of(const float* p) {
   return {linear_from_srgb(p[0]), linear_from_srgb(p[1]), linear_from_srgb(p[2])};
@@ -49,7 +29,7 @@ Solid solid_of(const ProceduralParams& params, Random random) {
 
 PreviewMaterial procedural_material(const std::string& name, const std::vector<std::string>& set,
                                     bool solid) {
-  const ProceduralParams params = read_params(name, set);
+  const ProceduralParams params = std::get<ProceduralParams>(method_of("procedural", name, set));
   const Random random(1);
   PreviewMaterial material;
   if (solid) {

@@ -137,10 +137,10 @@ Trained train_models(const Config& config, const RunOptions& options, ProgressBa
   for (const Lesson& lesson : lessons)
     if (is_inference(config, lesson)) check_frames(config.models[lesson.model]);
   const fs::path folder = options.output / "models";
-  std::optional<FolderLock> lock;
+  std::optional<FileLock> lock;
   try {
     create_folder(folder);
-    lock.emplace(options.output);
+    lock = lock_folder(options.output);
     if (options.is_default_output) check_default_output(config, options.output);
     std::vector<InputFile> read = input_files(config);
     for (const ModelEntry& model : config.models)

@@ -63,7 +63,11 @@ Size level_size(const NeuralParams& params, Size whole, int level) {
 Size canvas_size(const NeuralParams& params, const Target& target) {
   Size size = target.size;
   if (params.sliced_weight == 0 || !params.start.empty() || !target.known.empty()) return size;
-  const int margin = *std::max_element(params.patch_sizes.begin(), params.patch_sizes.end());
+  const int patch = *std::max_element(params.patch_sizes.begin(), params.patch_sizes.end());
+  // What lies at an edge is in few patches and may be of any brightness, on coarse levels in a
+  // wider strip: of a large picture a strip as wide is little work more.
+  constexpr int part = 40, widest = 8;
+  const int margin = std::clamp(std::min(size.width, size.height) / part, patch, widest * patch);
   if (!tiles_x(target.tile)) size.width += 2 * margin;
   if (!tiles_y(target.tile)) size.height += 2 * margin;
   return size;

@@ -1,8 +1,11 @@
 #include "runs/diversity.h"
 
 #include <map>
+#include <set>
 
 #include "core/hash.h"
+#include "runs/format.h"
+#include "runs/job_files.h"
 
 namespace gramloom {
 
@@ -24,6 +27,30 @@ SeedDiversity diversity_of_records(const std::string& exemplar, const std::strin
     if (record.status == Status::done && record.exemplar == exemplar && record.method == method)
       add(of, record);
   return of;
+}
+
+std::vector<SeedDiversity> find_diversity(const std::filesystem::path& output,
+                                          const std::vector<NamedRecord>& jobs,
+                                          const std::vector<SeedDiversity>& earlier) {
+  using Name = std::pair<std::string, std::string>;  // of an exemplar and a method
+  std::map<Name, const SeedDiversity*> before;
+  for (const SeedDiversity& of : earlier) before[{of.exemplar, of.method}] = &of;
+  std::set<Name> looked_for;
+  std::vector<SeedDiversity> found;
+  for (const auto& [name, record] : jobs) {
+    const Name of{record.exemplar, record.method};
+    if (!looked_for.insert(of).second) continue;
+    try {
+      const auto file = diversity_file(output, of.first, of.second);
+      std::error_code ignored;
+      if (std::filesystem::exists(file, ignored))
+        found.push_back(read_format<SeedDiversity>(file));
+      else if (before.contains(of))
+        found.push_back(*before.at(of));
+    } catch (const Error&) {  // it is made anew
+    }
+  }
+  return found;
 }
 
 std::vector<SeedDiversity> valid_diversity(const std::vector<SeedDiversity>& list,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <tuple>
@@ -10,8 +11,11 @@
 
 namespace gramloom {
 
-/// How unlike the results of one exemplar and method with several seeds are.
+/// How unlike the results of one exemplar and method with several seeds are: the content of their
+/// diversity.json.
 struct SeedDiversity {
+  static constexpr int version = 1;
+  static constexpr std::string_view what = "the diversity of a method's seeds";
   std::string exemplar;
   std::string method;
   std::vector<int> seeds;
@@ -36,6 +40,12 @@ struct SeedDiversity {
 /// seeds, and a hash of the textures' hashes ("" where records of an older version lack one).
 SeedDiversity diversity_of_records(const std::string& exemplar, const std::string& method,
                                    const std::vector<NamedRecord>& jobs);
+
+/// Those that the folder `output` has of the exemplars and methods of `jobs`, and in their place,
+/// where there are none, those of `earlier`. A file that cannot be read has none.
+std::vector<SeedDiversity> find_diversity(const std::filesystem::path& output,
+                                          const std::vector<NamedRecord>& jobs,
+                                          const std::vector<SeedDiversity>& earlier);
 
 /// Those of `list` that are of the textures that `jobs` have now.
 std::vector<SeedDiversity> valid_diversity(const std::vector<SeedDiversity>& list,

@@ -25,7 +25,13 @@ JobFiles job_files(const fs::path& output, const std::string& job) {
           stem.string() + ".csv",
           stem.string() + ".copy_map.png",
           stem.string() + ".checkpoint",
-          stem.string() + ".checkpoint.csv"};
+          stem.string() + ".checkpoint.csv",
+          stem.string() + ".lock"};
+}
+
+fs::path diversity_file(const fs::path& output, const std::string& exemplar,
+                        const std::string& method) {
+  return output / exemplar / method / "diversity.json";
 }
 
 std::string kept_exemplar(const fs::path& output, const std::string& exemplar,

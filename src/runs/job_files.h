@@ -15,10 +15,15 @@ struct JobFiles {
   std::filesystem::path copy_map;          // seed1.copy_map.png
   std::filesystem::path checkpoint;        // seed1.checkpoint
   std::filesystem::path checkpoint_trace;  // seed1.checkpoint.csv
+  std::filesystem::path lock;              // seed1.lock, while a process does the job
 };
 
 /// The files of the job called "exemplar/method/seed1" in the folder `output`.
 JobFiles job_files(const std::filesystem::path& output, const std::string& job);
+
+/// Where the diversity of the seeds of an exemplar and a method is kept, in the folder `output`.
+std::filesystem::path diversity_file(const std::filesystem::path& output,
+                                     const std::string& exemplar, const std::string& method);
 
 /// An exemplar's picture as the methods saw it, or one of its maps: the run in the folder `output`
 /// keeps it as "pebbles/exemplar.png" or "pebbles/exemplar_height.png", or in another format. From

@@ -52,6 +52,11 @@ bool is_comparison(const fs::path& file) {
          json->contains("changes");
 }
 
+bool is_diversity(const fs::path& file) {
+  const auto json = json_of(file);
+  return json && json->contains("seeds") && json->contains("value") && json->contains("textures");
+}
+
 EarlierRun earlier_run_in(const fs::path& folder) {
   const auto json = json_of(folder / "run.json");
   if (!json) return {};

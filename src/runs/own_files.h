@@ -16,6 +16,9 @@ bool is_score_sheet(const std::filesystem::path& file);
 /// baseline.json, by its keys.
 bool is_comparison(const std::filesystem::path& file);
 
+/// diversity.json, by its keys.
+bool is_diversity(const std::filesystem::path& file);
+
 /// What a run.json says of the run that wrote it.
 struct EarlierRun {
   bool is_ours = false;           // false: there is none, or it is not ours

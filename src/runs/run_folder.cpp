@@ -85,7 +85,7 @@ RunOnDisk read_run(const fs::path& folder) {
     }
     records.push_back({name, run.jobs.back().record});
   }
-  run.diversity = valid_diversity(run.run.diversity, records);
+  run.diversity = valid_diversity(find_diversity(folder, records, run.run.diversity), records);
   return run;
 }
 

@@ -1,0 +1,147 @@
+#include "jobs/run_state.h"
+
+#include <algorithm>
+
+#include "io/text_file.h"
+#include "jobs/keep_exemplar.h"
+#include "runs/file_lock.h"
+#include "runs/job_files.h"
+
+namespace gramloom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string outcome(const PlannedJob& planned, const JobRecord& record) {
+  if (record.status == Status::failed)
+    return fmt::format("{}: failed: {}", planned.name, record.error);
+  std::string text =
+      fmt::format("{}: {} in {:.1f} s", planned.name, to_word(record.status), record.seconds);
+  if (record.loss) text += fmt::format(", loss {:.3e}", record.loss->last);
+  return text;
+}
+
+void count_outcome(RunSummary& summary, Status status) {
+  switch (status) {
+    case Status::done:
+      ++summary.done;
+      break;
+    case Status::failed:
+      ++summary.failed;
+      break;
+    case Status::interrupted:
+      ++summary.interrupted;
+      break;
+    case Status::waiting:  // no job that was begun
+      break;
+  }
+}
+
+void put_down(RunState& state, const PlannedJob& planned, const JobRecord& record) {
+  state.log.set(planned.name, record);
+  or_complain(state.run, [&] { state.log.keep_up(); });
+}
+
+}  // namespace
+
+std::optional<JobRecord> finished_before(RunState& state, const PlannedJob& planned) {
+  Run& run = state.run;
+  if (!run.options.resume) return std::nullopt;
+  const JobFiles files = job_files(run.options.output, planned.name);
+  const std::string reason = reason_to_run(run, planned);
+  if (reason.empty()) {
+    remove_unfinished_state(files);
+    remove_stale_lock(files.lock);
+    return find_record(files.record);
+  }
+  if (fs::exists(files.record)) run.bar.message(fmt::format("{}: again, {}", planned.name, reason));
+  return std::nullopt;
+}
+
+void settle_texture(RunState& state, const PlannedJob& planned, const TaskResult& result) {
+  ProgressBar& bar = state.run.bar;
+  if (!result.elsewhere.empty()) {
+    ++state.summary.elsewhere;
+    bar.message(fmt::format("{}: is done by {}", planned.name, result.elsewhere));
+    return;
+  }
+  const JobRecord& record = *result.record;
+  count_outcome(state.summary, record.status);
+  const std::string text = outcome(planned, record);
+  record.status == Status::failed ? bar.complaint(text) : bar.message(text);
+  put_down(state, planned, record);
+}
+
+void settle_finished_before(RunState& state, const PlannedJob& planned, const JobRecord& record) {
+  ++state.summary.skipped;
+  state.run.bar.message(planned.name + ": finished before");
+  put_down(state, planned, record);
+}
+
+void settle_scores(RunState& state, const PlannedJob& planned, const TaskResult& result) {
+  if (result.stopped) state.summary.unscored = true;
+  if (result.stopped || !result.record) return;
+  if (!result.record->score_error.empty())
+    state.run.bar.complaint(
+        fmt::format("{}: not scored: {}", planned.name, result.record->score_error));
+  put_down(state, planned, *result.record);
+}
+
+void settle_diversity(RunState& state, const JobGroup& group, const TaskResult& result) {
+  if (result.stopped) state.summary.unscored = true;
+  if (!result.error.empty())
+    state.run.bar.complaint(fmt::format(
+        "{}: no diversity: {}", job_folder(state.run.config, group.front()->job), result.error));
+  if (!result.diversity) return;
+  state.log.set(*result.diversity);
+  or_complain(state.run, [&] { state.log.keep_up(); });
+}
+
+bool wants_diversity(const RunState& state, const JobGroup& group) {
+  const Run& run = state.run;
+  const Job& first = group.front()->job;
+  const bool selected = std::any_of(group.begin(), group.end(),
+                                    [](const auto* planned) { return planned->selected; });
+  if (!run.config.scores || run.config.direction.fill || !first.exemplar || !selected) return false;
+  if (!run.options.shard)
+    remove_stale_temporaries(run.options.output / job_folder(run.config, first), "diversity");
+  const std::vector<NamedRecord> finished = finished_jobs(run, group);
+  // Whichever process finishes the last of them compares them.
+  if (finished.size() < (run.options.shard ? std::max<std::size_t>(group.size(), 2) : 2))
+    return false;
+  return !state.log.knows(diversity_of_records(exemplar_name(run.config, first),
+                                               run.config.methods[first.method].name, finished));
+}
+
+void keep_exemplar(RunState& state, const Job& job, std::optional<std::size_t>& kept) {
+  Run& run = state.run;
+  if (job.exemplar == kept || !job.exemplar) return;
+  if (!run.plan.exemplars[*job.exemplar].error.empty()) return;  // its jobs say so
+  const Request* request = nullptr;
+  try {
+    request = &request_of(run, job);
+  } catch (const std::exception&) {  // the job, which needs it too, says so
+    return;
+  }
+  kept = job.exemplar;
+  or_complain(run, [&] {
+    const fs::path folder = run.options.output / exemplar_name(run.config, job);
+    create_folder(folder);
+    if (!run.options.shard) {  // another process may be writing its own
+      remove_stale_temporaries(folder, "exemplar");
+      remove_stale_temporaries(folder, "target");
+    }
+    write_exemplar(folder, *request, run.files);
+  });
+}
+
+void or_complain(const Run& run, const std::function<void()>& write) {
+  try {
+    write();
+  } catch (const Error& error) {
+    run.bar.complaint(error.what());
+  }
+}
+
+}  // namespace gramloom

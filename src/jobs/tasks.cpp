@@ -1,0 +1,124 @@
+#include "jobs/tasks.h"
+
+#include <chrono>
+#include <thread>
+
+#include "io/text_file.h"
+#include "jobs/interruption.h"
+#include "runs/file_lock.h"
+#include "runs/format.h"
+#include "runs/job_files.h"
+
+namespace gramloom {
+
+namespace {
+
+bool same_group(const PlannedJob& a, const PlannedJob& b) {
+  return a.job.exemplar == b.job.exemplar && a.job.method == b.job.method;
+}
+
+constexpr std::chrono::seconds patience{10};  // for a worker of a run that was killed to end
+constexpr std::chrono::milliseconds pause{20};
+
+// Throws Error where nothing can be written or locked. A run that has the folder for itself waits a
+// little for a process that should not be there any more.
+std::optional<FileLock> lock_job(const Run& run, const JobFiles& files) {
+  create_folder(files.folder);
+  const auto end = std::chrono::steady_clock::now() + patience;
+  for (;;) {
+    auto lock = FileLock::take(files.lock, FileLock::Mode::exclusive);
+    if (lock || run.options.shard || run.stopped() || std::chrono::steady_clock::now() > end)
+      return lock;
+    std::this_thread::sleep_for(pause);
+  }
+}
+
+// Does the work with the job's lock. Where none can be had because of the file system, the work
+// says what is wrong, if anything is.
+template <class F>
+void with_lock(const Run& run, const PlannedJob& planned, TaskResult& result, F&& work) {
+  const JobFiles files = job_files(run.options.output, planned.name);
+  std::optional<FileLock> lock;
+  try {
+    lock = lock_job(run, files);
+    if (!lock) {
+      const std::string holder = holder_of(files.lock);
+      result.elsewhere = holder.empty() ? "another process" : holder;
+      return;
+    }
+  } catch (const Error&) {
+  }
+  work();
+}
+
+void make_texture(Run& run, const PlannedJob& planned, TaskResult& result) {
+  // Another process may have finished it since someone looked.
+  if (run.options.shard && run.options.resume && reason_to_run(run, planned).empty())
+    result.record = find_record(job_files(run.options.output, planned.name).record);
+  else
+    result.record = run_job(run, planned);
+}
+
+void score(Run& run, const PlannedJob& planned, TaskResult& result) {
+  result.record = find_record(job_files(run.options.output, planned.name).record);
+  if (result.record && lacks_scores(run, planned, *result.record))
+    result.stopped = !score_job(run, planned, *result.record);
+}
+
+// How unlike the finished textures of a group are.
+void compare_seeds(Run& run, const JobGroup& group, TaskResult& result) {
+  const Job& first = group.front()->job;
+  const std::string exemplar = exemplar_name(run.config, first);
+  const std::string& method = run.config.methods[first.method].name;
+  const std::vector<NamedRecord> finished = finished_jobs(run, group);
+  if (finished.size() < 2) return;
+  const NothingToKeep scope;
+  try {
+    SeedDiversity diversity = diversity_of_records(exemplar, method, finished);
+    diversity.value = diversity_of(run, first, finished);
+    write_format(diversity_file(run.options.output, exemplar, method), diversity);
+    result.diversity = std::move(diversity);
+  } catch (const Interrupted&) {
+    result.stopped = true;
+  } catch (const std::exception& error) {
+    result.error = first_line(error.what());
+  }
+}
+
+}  // namespace
+
+TaskResult do_task(Run& run, const Task& task) {
+  const auto number = static_cast<std::size_t>(task.job);
+  const PlannedJob& planned = run.plan.jobs.at(number);
+  TaskResult result;
+  switch (task.kind) {
+    case TaskKind::texture:
+      with_lock(run, planned, result, [&] { make_texture(run, planned, result); });
+      break;
+    case TaskKind::scores:
+      with_lock(run, planned, result, [&] { score(run, planned, result); });
+      break;
+    case TaskKind::diversity:
+      compare_seeds(run, group_of(run.plan, number), result);
+      break;
+  }
+  return result;
+}
+
+std::vector<JobGroup> groups_of(const Plan& plan) {
+  std::vector<JobGroup> groups;
+  for (const PlannedJob& planned : plan.jobs) {
+    if (groups.empty() || !same_group(*groups.back().front(), planned)) groups.emplace_back();
+    groups.back().push_back(&planned);
+  }
+  return groups;
+}
+
+JobGroup group_of(const Plan& plan, std::size_t job) {
+  JobGroup group;
+  for (std::size_t i = job; i < plan.jobs.size() && same_group(plan.jobs[job], plan.jobs[i]); ++i)
+    group.push_back(&plan.jobs[i]);
+  return group;
+}
+
+}  // namespace gramloom

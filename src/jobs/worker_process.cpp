@@ -1,0 +1,110 @@
+#include "jobs/worker_process.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <utility>
+
+#include "core/error.h"
+#include "jobs/settings.h"
+
+namespace gramloom {
+
+namespace {
+
+std::array<int, 2> make_pipe() {
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0)
+    throw Error("cannot start a process: {}", std::strerror(errno));
+  return ends;
+}
+
+// In the child, between fork and exec: only what may be called there.
+[[noreturn]] void become(char* const* words, int tasks, int answers) {
+  setpgid(0, 0);  // Ctrl-C is for the parent, which tells its workers
+  // An end that has the other's number already must not be closed by that one.
+  if (tasks == worker_answers) tasks = dup(tasks);
+  if (answers == worker_answers)
+    fcntl(answers, F_SETFD, 0);
+  else
+    dup2(answers, worker_answers);
+  dup2(tasks, STDIN_FILENO);
+  execv("/proc/self/exe", words);
+  _exit(127);
+}
+
+void close_end(int& end) {
+  if (end >= 0) close(std::exchange(end, -1));
+}
+
+}  // namespace
+
+WorkerProcess::WorkerProcess(const std::vector<std::string>& words, int threads,
+                             const std::string& greeting) {
+  std::vector<std::string> own = words;
+  own.insert(own.begin() + 2, fmt::format("--worker={}", threads));
+  std::vector<char*> pointers;
+  for (std::string& word : own) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  auto tasks = make_pipe(), answers = make_pipe();
+  process_ = fork();
+  if (process_ == 0) become(pointers.data(), tasks[0], answers[1]);
+  close(tasks[0]);
+  close(answers[1]);
+  tasks_ = tasks[1];
+  answers_ = answers[0];
+  if (process_ < 0) {
+    close_end(tasks_);
+    close_end(answers_);
+    throw Error("cannot start a process: {}", std::strerror(errno));
+  }
+  const std::string line = greeting + "\n";
+  [[maybe_unused]] const ssize_t written = write(tasks_, line.data(), line.size());
+}
+
+WorkerProcess::~WorkerProcess() {
+  close_end(tasks_);
+  close_end(answers_);
+  if (process_ > 0) how_it_ended();
+}
+
+// One that has ended cannot be asked; its answers say so.
+void WorkerProcess::ask(const Task& task) {
+  const std::string line = to_text(to_json_value(task), -1) + "\n";
+  [[maybe_unused]] const ssize_t written = write(tasks_, line.data(), line.size());
+}
+
+std::optional<std::vector<WorkerAnswer>> WorkerProcess::answers() {
+  std::array<char, 65536> some{};
+  ssize_t count = 0;
+  while ((count = read(answers_, some.data(), some.size())) < 0 && errno == EINTR) {
+  }
+  if (count <= 0) return std::nullopt;
+  rest_.append(some.data(), static_cast<std::size_t>(count));
+  std::vector<WorkerAnswer> found;
+  std::size_t begin = 0;
+  for (std::size_t end; (end = rest_.find('\n', begin)) != std::string::npos; begin = end + 1)
+    found.push_back(from_json_value<WorkerAnswer>(parse_json(rest_.substr(begin, end - begin)),
+                                                  {"an answer", "", false}));
+  rest_.erase(0, begin);
+  return found;
+}
+
+void WorkerProcess::stop() { kill(process_, SIGTERM); }
+
+std::string WorkerProcess::how_it_ended() {
+  int status = 0;
+  pid_t ended = 0;
+  while ((ended = waitpid(process_, &status, 0)) < 0 && errno == EINTR) {
+  }
+  if (ended != std::exchange(process_, -1)) return "is gone";
+  if (WIFSIGNALED(status)) return fmt::format("was killed by signal {}", WTERMSIG(status));
+  return fmt::format("ended with code {}", WEXITSTATUS(status));
+}
+
+}  // namespace gramloom

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "jobs/worker.h"
+
+namespace gramloom {
+
+/// A worker from its parent's side.
+class WorkerProcess {
+ public:
+  /// Starts this program with the same words and what makes it a worker of so many threads. Throws
+  /// Error.
+  WorkerProcess(const std::vector<std::string>& words, int threads, const std::string& greeting);
+  /// Waits until it has ended.
+  ~WorkerProcess();
+  WorkerProcess(const WorkerProcess&) = delete;
+  WorkerProcess& operator=(const WorkerProcess&) = delete;
+
+  void ask(const Task& task);
+  /// To be polled for answers.
+  int descriptor() const { return answers_; }
+  /// Those that have come; none once it has ended.
+  std::optional<std::vector<WorkerAnswer>> answers();
+  /// Asks it to stop as Ctrl-C would.
+  void stop();
+  /// Waits until it has ended: "killed by signal 9", "ended with code 1".
+  std::string how_it_ended();
+
+ private:
+  pid_t process_ = -1;
+  int tasks_ = -1, answers_ = -1;
+  std::string rest_;  // of a line
+};
+
+}  // namespace gramloom

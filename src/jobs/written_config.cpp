@@ -1,0 +1,86 @@
+#include "jobs/written_config.h"
+
+#include "io/json_text.h"
+#include "jobs/exemplar_entries.h"
+#include "jobs/input_files.h"
+#include "jobs/protected_files.h"
+
+namespace gramloom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class T>
+std::string value_text(const T& value) {
+  if constexpr (std::is_same_v<T, FileOrName>) {
+    if (value.is_name() || value.empty()) return quoted(value.string());
+    return quoted_path(value);
+  } else if constexpr (std::is_same_v<T, fs::path>) {
+    return value.empty() ? "\"\"" : quoted_path(value);
+  } else {
+    return value_to_text(value);
+  }
+}
+
+}  // namespace
+
+// TOML's basic strings are JSON's.
+std::string quoted(const std::string& text) {
+  if (valid_utf8(text) != text)
+    throw ConfigError("the name {} is not UTF-8, as a config must be: rename the file",
+                      valid_utf8(text));
+  return Json(text).dump();
+}
+
+std::string quoted_path(const fs::path& file) {
+  return quoted(fs::absolute(file).lexically_normal().string());
+}
+
+std::string quoted_paths(const std::vector<fs::path>& files) {
+  std::string list;
+  for (const fs::path& file : files) list += (list.empty() ? "" : ", ") + quoted_path(file);
+  return "[" + list + "]";
+}
+
+std::string exemplar_name(const fs::path& picture) {
+  const std::string name = picture.stem().string();
+  try {
+    check_exemplar_name(name, {});
+    return name;
+  } catch (const ConfigError&) {
+    return "picture";
+  }
+}
+
+std::string parameter_text(const Method& method, std::string_view key) {
+  std::string text;
+  std::visit(
+      [&](const auto& params) {
+        for_each_parameter(params, [&](const auto& field, const auto& value) {
+          if (field.name == key) text = value_text(value);
+        });
+      },
+      method);
+  return text;
+}
+
+void check_result(const fs::path& output, const Config& config, const std::string& mark) {
+  const fs::path folder = fs::absolute(output).parent_path();
+  if (!fs::is_directory(folder)) throw Error("there is no folder {}", folder.string());
+  check_replaced(output, ProtectedFiles(input_files(config)), mark);
+}
+
+Texture finished_texture(const Method& method, const Request& request, const Control& control) {
+  bool stopped = false;
+  Control own = control;
+  own.progress = [&](const Progress& progress) {
+    stopped = !control.report(progress);
+    return !stopped;
+  };
+  Texture texture = run_method(method, request, own);
+  if (stopped) throw Interrupted();
+  return texture;
+}
+
+}  // namespace gramloom

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/progress.h"
+#include "jobs/config.h"
+
+namespace gramloom {
+
+// Configs that commands write themselves, and what those share that do the one job of such a
+// config: `fill` and `make`.
+
+/// A text as TOML writes it. Throws ConfigError for one that is not UTF-8.
+std::string quoted(const std::string& text);
+/// A file by its absolute path.
+std::string quoted_path(const std::filesystem::path& file);
+/// "[a, b]" of several.
+std::string quoted_paths(const std::vector<std::filesystem::path>& files);
+/// What an exemplar of this picture is called: like its file, where its results can be.
+std::string exemplar_name(const std::filesystem::path& picture);
+/// The parameter `key` of a method as a config of any folder says it; "" of one that is not set.
+std::string parameter_text(const Method& method, std::string_view key);
+
+/// Throws Error when a picture cannot be written to `output`: there is no such folder, it would
+/// write over a file of the config's, or replace one whose metadata lacks `mark`.
+void check_result(const std::filesystem::path& output, const Config& config,
+                  const std::string& mark);
+
+/// A texture that is finished: throws Interrupted also where a method would give what it has.
+Texture finished_texture(const Method& method, const Request& request, const Control& control);
+
+}  // namespace gramloom
