@@ -31,9 +31,13 @@ std::string output_refusal(const Config& config, const Plan& plan) {
 ExitCode check_config(const ConfigOptions& options) {
   const Config config = read_config(options.config, options.set);
   std::string text;
-  if (!config.models.empty()) text = lesson_table(config) + "\n";
+  if (!config.models.empty()) text = lesson_table(config, options.only);
   const Plan plan = make_plan(config, options.only);
-  if (!plan.jobs.empty()) text += job_table(config, plan);
+  if (has_selected(plan))
+    text += job_table(config, plan);
+  else if (text.empty())
+    throw ConfigError("--only {}: no model and no job of {} matches", options.only,
+                      config.file.string());
   return print(text + output_refusal(config, plan));
 }
 

@@ -11,12 +11,13 @@ void add_config_options(CLI::App& command, ConfigOptions& options) {
   command
       .add_option(
           "--only", options.only,
-          "only jobs whose exemplar/method or exemplar/method/seedN matches: * stands for any "
-          "letters, ? for one, all else for itself")
+          "only jobs whose exemplar/method or exemplar/method/seedN matches, and models to train "
+          "whose exemplar/model does (of an inference its name): * stands for any letters, ? for "
+          "one, all else for itself")
       ->type_name("GLOB");
   add_repeated(command, "--set", options.set,
                "in place of what the config says: a top-level key, a parameter of every method "
-               "that has it, method.NAME.key or exemplar.NAME.key",
+               "that has it, method.NAME.key, exemplar.NAME.key or model.NAME.key",
                "KEY=VALUE");
 }
 

@@ -35,6 +35,7 @@ ExitCode train(const TrainArguments& arguments) {
     throw ConfigError("{}: there is no [[model]] to train", config.file.string());
   if (std::filesystem::is_regular_file(config.file)) bound_spinning(arguments.words);
   RunOptions options = begin_run(config, arguments.output, arguments.resume, arguments.words);
+  options.only = arguments.config.only;
   ProgressBar bar(progress_style(arguments.quiet));
   const Trained trained = train_models(config, options, bar);
   if (trained.interrupted) {
@@ -44,7 +45,9 @@ ExitCode train(const TrainArguments& arguments) {
   // Then their textures, with those of the config's methods beside them, as any run.
   config.models.clear();
   config.methods.insert(config.methods.end(), trained.methods.begin(), trained.methods.end());
-  if (config.methods.empty()) return trained.failed > 0 ? job_failed : all_done;
+  const bool nothing_to_show =
+      options.only.empty() ? config.methods.empty() : trained.methods.empty();
+  if (nothing_to_show) return trained.failed > 0 ? job_failed : all_done;
   const ExitCode ended = end_run(options, run(config, options, bar), bar);
   return ended == all_done && trained.failed > 0 ? job_failed : ended;
 }
@@ -58,11 +61,7 @@ Command add_train(CLI::App& program, const std::vector<std::string>& words) {
       "train",
       "Train the models of a config, each once; then make and score textures by them, and by the "
       "config's methods, as a run");
-  command->add_option("config", arguments->config.config, "the config file (TOML)")->required();
-  add_repeated(*command, "--set", arguments->config.set,
-               "put a value in place of the config's: key=value, model.NAME.key=value …; can be "
-               "repeated",
-               "KEY=VALUE");
+  add_config_options(*command, arguments->config);
   command->add_option("--output", arguments->output, "folder of the results (out/<config's name>)")
       ->type_name("DIR");
   add_threads(*command, arguments->threads);

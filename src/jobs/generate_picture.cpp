@@ -27,9 +27,9 @@ void check_files(const GenerateWork& work, const GeneratorDescription& descripti
   const ProtectedFiles inputs(read);
   inputs.check(work.output);
   // The maps' names are ours, not the user's: only files of an earlier picture are replaced.
-  for (const GeneratorLayer& layer : description.layers)
-    if (!layer.name.empty())
-      check_replaced(file_of_map(work.output, layer.name), inputs, "gramloom:settings");
+  for (const GeneratorPart& part : parts_of(description.layers))
+    if (!part.name.empty())
+      check_replaced(file_of_map(work.output, part.name), inputs, "gramloom:settings");
 }
 
 Metadata metadata_of(const GenerateWork& work) {
@@ -43,14 +43,10 @@ Metadata metadata_of(const GenerateWork& work) {
 
 std::vector<Part> open_parts(const GenerateWork& work, const GeneratorDescription& description) {
   std::vector<Part> parts;
-  const auto& layers = description.layers;
-  for (std::size_t i = 0; i < layers.size();) {
-    const GeneratorLayer& layer = layers[i];
-    Part part{file_of_map(work.output, layer.name), nullptr, layer.first, 0};
-    // A picture and its alpha are two layers of one name.
-    for (; i < layers.size() && layers[i].name == layer.name; ++i) part.channels += layers[i].count;
+  for (const GeneratorPart& own : parts_of(description.layers)) {
+    Part part{file_of_map(work.output, own.name), nullptr, own.first, own.count};
     Encoding encoding;
-    encoding.pixel_type = layer.kind == MapKind::colour ? PixelType::uint8 : PixelType::uint16;
+    encoding.pixel_type = own.kind == MapKind::colour ? PixelType::uint8 : PixelType::uint16;
     if (work.pixel_type) encoding.pixel_type = *work.pixel_type;
     part.rows = open_image_rows(part.file, work.size, part.channels, encoding, metadata_of(work));
     parts.push_back(std::move(part));

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "io/models_folder.h"
+#include "jobs/frame_sequence.h"
 #include "jobs/inference_pairs.h"
 #include "jobs/protected_files.h"
 #include "runs/csv_fields.h"
@@ -15,8 +16,6 @@ namespace gramloom {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* mark = "gramloom:inferred";  // in the metadata of every picture
 
 std::vector<double> pose_of(std::string_view option, const std::string& text) {
   std::vector<double> pose;
@@ -34,7 +33,7 @@ std::vector<double> pose_of(std::string_view option, const std::string& text) {
 void check_given(const InferenceDescription& description, const std::vector<double>& pose,
                  const std::string& place, bool extrapolates) {
   try {
-    check_pose(description, pose, extrapolates);
+    check_pose(description.pose, pose, extrapolates);
   } catch (const ConfigError& error) {
     throw ConfigError("{}: {}", place, error.what());
   }
@@ -71,23 +70,12 @@ std::vector<std::vector<double>> poses_of(const InferWork& work,
   if (work.to.empty()) return {pose};
   const std::vector<double> to = pose_of("--to", work.to);
   check_given(description, to, "--to " + work.to, work.extrapolates);
-  std::vector<std::vector<double>> poses;
-  for (int frame = 0; frame < work.frames; ++frame) {
-    const double done = work.frames == 1 ? 0 : 1.0 * frame / (work.frames - 1);
-    std::vector<double>& between = poses.emplace_back();
-    for (std::size_t i = 0; i < pose.size(); ++i)
-      between.push_back(frame + 1 == work.frames && frame > 0 ? to[i]
-                                                              : pose[i] + done * (to[i] - pose[i]));
-  }
-  return poses;
+  return poses_of(FrameSequence{pose, to, work.frames});
 }
 
 std::vector<fs::path> files_of(const InferWork& work, std::size_t count) {
   if (work.poses.empty() && work.to.empty()) return {work.output};
-  std::vector<fs::path> files;
-  for (std::size_t i = 0; i < count; ++i)
-    files.push_back(work.output / fmt::format("frame_{:04}.{}", i + 1, work.format));
-  return files;
+  return frame_files(work.output, count, work.format);
 }
 
 // How values become those of a file: integers reach from the model's least value to its largest.
@@ -106,28 +94,20 @@ Scale scale_of(const InferenceModel& model, PixelType stored) {
 
 }  // namespace
 
-InferredFiles infer_pictures(const InferWork& work, const Control& control) {
-  InferenceModel model;
-  std::vector<std::vector<double>> poses;
+std::vector<fs::path> frame_files(const fs::path& folder, std::size_t count,
+                                  const std::string& format) {
   std::vector<fs::path> files;
-  PixelType stored{};
-  try {
-    const fs::path file = find_model(work.model, ".safetensors", "model");
-    model = read_inference(file);
-    poses = poses_of(work, model.description);
-    files = files_of(work, poses.size());
-    stored = stored_type(files.front().extension().string(), model.description.pixel_type);
-    if (files.front() != work.output) create_folder(work.output);
-    std::vector<InputFile> read{{file, "is the model"}};
-    if (!work.poses.empty()) read.push_back({work.poses, "has the poses"});
-    const ProtectedFiles inputs(read);
-    for (const fs::path& picture : files) check_replaced(picture, inputs, mark);
-  } catch (const ConfigError& error) {
-    throw ConfigError("infer: {}", error.what());
-  } catch (const Error& error) {
-    throw ConfigError("infer: {}", error.what());
-  }
-  const Scale scale = scale_of(model, stored);
+  for (std::size_t i = 0; i < count; ++i)
+    files.push_back(folder / fmt::format("frame_{:04}.{}", i + 1, format));
+  return files;
+}
+
+InferredFiles write_inferred(const InferenceModel& model,
+                             const std::vector<std::vector<double>>& poses,
+                             const std::vector<fs::path>& files, const Control& control) {
+  const InferenceDescription& description = model.description;
+  const Scale scale =
+      scale_of(model, stored_type(files.front().extension().string(), description.pixel_type));
   InferredFiles inferred;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     control.step(static_cast<std::int64_t>(i), static_cast<std::int64_t>(poses.size()));
@@ -136,9 +116,9 @@ InferredFiles infer_pictures(const InferWork& work, const Control& control) {
       for (float& value : picture.pixels) value = (value - scale.low) / (scale.high - scale.low);
     Json pose = Json::object();
     for (std::size_t k = 0; k < poses[i].size(); ++k)
-      pose[valid_utf8(model.description.pose[k].name)] = poses[i][k];
-    const auto notes = write_image(files[i], picture, {model.description.pixel_type, "", {}},
-                                   {{mark, to_text(pose, -1, true)}});
+      pose[valid_utf8(description.pose[k].name)] = poses[i][k];
+    const auto notes = write_image(files[i], picture, {description.pixel_type, "", {}},
+                                   {{inferred_mark, to_text(pose, -1, true)}});
     inferred.files.push_back(files[i]);
     for (const std::string& note : notes)
       inferred.notes.push_back(fmt::format("{}: {}", files[i].filename().string(), note));
@@ -147,6 +127,29 @@ InferredFiles infer_pictures(const InferWork& work, const Control& control) {
     inferred.notes.push_back(fmt::format("{}: 0 stands for {:g} and 1 for {:g}",
                                          files.front().filename().string(), scale.low, scale.high));
   return inferred;
+}
+
+InferredFiles infer_pictures(const InferWork& work, const Control& control) {
+  InferenceModel model;
+  std::vector<std::vector<double>> poses;
+  std::vector<fs::path> files;
+  try {
+    const fs::path file = find_model(work.model, ".safetensors", "model");
+    model = read_inference(file);
+    poses = poses_of(work, model.description);
+    files = files_of(work, poses.size());
+    stored_type(files.front().extension().string(), model.description.pixel_type);
+    std::vector<InputFile> read{{file, "is the model"}};
+    if (!work.poses.empty()) read.push_back({work.poses, "has the poses"});
+    const ProtectedFiles inputs(read);
+    for (const fs::path& picture : files) check_replaced(picture, inputs, inferred_mark);
+    if (files.front() != work.output) create_folder(work.output);
+  } catch (const ConfigError& error) {
+    throw ConfigError("infer: {}", error.what());
+  } catch (const Error& error) {
+    throw ConfigError("infer: {}", error.what());
+  }
+  return write_inferred(model, poses, files, control);
 }
 
 }  // namespace gramloom

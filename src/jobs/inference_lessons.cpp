@@ -4,6 +4,7 @@
 
 #include "core/hash.h"
 #include "io/image_file.h"
+#include "jobs/infer_pictures.h"
 #include "jobs/inference_pairs.h"
 #include "jobs/machine.h"
 #include "jobs/pose_blends.h"
@@ -16,18 +17,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// What has no trace and no checkpoint.
+Control shown_by(const LessonRun& run) {
+  Control control;
+  control.progress = [&](const Progress& progress) {
+    run.bar.update(progress);
+    return !(run.options.stop && run.options.stop());
+  };
+  return control;
+}
+
 // The table of the pairs, whose pictures are simulated if need be.
 fs::path table_of(const LessonRun& run, const InferenceRecipe& recipe) {
   if (recipe.simulation.empty()) return recipe.pairs;
   const Simulation simulation = read_simulation(recipe.simulation);
   const fs::path folder = run.options.output / "data" / run.lesson.name;
   if (run.options.resume && is_simulated(simulation, folder)) return folder / "poses.csv";
-  Control control;
-  control.progress = [&](const Progress& progress) {
-    run.bar.update(progress);
-    return !(run.options.stop && run.options.stop());
-  };
-  return make_simulation(simulation, folder, control);
+  return make_simulation(simulation, folder, shown_by(run));
+}
+
+// The poses of that table, before anything is simulated.
+PoseTable planned_poses(const InferenceRecipe& recipe) {
+  if (recipe.simulation.empty()) return read_pose_table(recipe.pairs);
+  return parse_pose_table(pose_table(read_simulation(recipe.simulation)), recipe.simulation);
+}
+
+std::vector<fs::path> frames_of(const FrameSequence& sequence, const JobFiles& files) {
+  return frame_files(files.folder / (files.name + "_frames"),
+                     static_cast<std::size_t>(sequence.frames), "exr");
 }
 
 // Pairs by what becomes of them.
@@ -121,10 +138,7 @@ std::string measure(const LessonRun& run, const Pairs& pairs, const Metadata& me
       errors.tested, errors.network, errors.nearest, errors.blend, blend.text());
 }
 
-}  // namespace
-
-void train_inference_lesson(const LessonRun& run) {
-  const auto& recipe = std::get<InferenceRecipe>(run.config.models[run.lesson.model].recipe);
+void learn(const LessonRun& run, const InferenceRecipe& recipe) {
   const InferencePairs all = read_pairs(table_of(run, recipe), run.hashes);
   Json settings{{"recipe", to_json_value(recipe)}, {"pairs", all.hash}};
   for (const char* file : {"pairs", "simulation"}) settings["recipe"].erase(file);
@@ -151,6 +165,53 @@ void train_inference_lesson(const LessonRun& run) {
   });
   run.bar.message(
       fmt::format("{}: trained in {}; {}", run.lesson.name, clock_text(seconds), errors));
+}
+
+void make_frames(const LessonRun& run, const FrameSequence& sequence) {
+  const InferenceModel model = read_inference(model_of(run.files));
+  const std::vector<fs::path> files = frames_of(sequence, run.files);
+  create_folder(files.front().parent_path());
+  const InferredFiles made = write_inferred(model, poses_of(sequence), files, shown_by(run));
+  for (const std::string& note : made.notes)
+    run.bar.message(fmt::format("{}: {}", run.lesson.name, note));
+  run.bar.message(fmt::format("{}: {} frames in {}", run.lesson.name, files.size(),
+                              files.front().parent_path().string()));
+}
+
+}  // namespace
+
+void check_frames(const ModelEntry& model) {
+  const auto& task = std::get<InferenceTask>(model.recipe);
+  if (task.pose.empty()) return;
+  std::vector<PoseNumber> numbers;
+  try {
+    const PoseTable table = planned_poses(task);
+    if (table.poses.size() < fewest_pairs) return;
+    numbers = learnt_numbers(table, split_pairs(table.poses.size(), task.held_out, task.seed));
+  } catch (const Error&) {
+    return;
+  }
+  for (const auto& [key, pose] : {std::pair("pose", task.pose), std::pair("to", task.to)}) {
+    try {
+      check_pose(numbers, pose, task.extrapolate);
+    } catch (const ConfigError& error) {
+      throw ConfigError("{}: '{}' = [{:g}]: {}", model.place, key, fmt::join(pose, ", "),
+                        error.what());
+    }
+  }
+}
+
+void check_frame_files(const ModelEntry& model, const JobFiles& files,
+                       const ProtectedFiles& inputs) {
+  const auto& task = std::get<InferenceTask>(model.recipe);
+  if (task.pose.empty()) return;
+  for (const fs::path& file : frames_of(task, files)) check_replaced(file, inputs, inferred_mark);
+}
+
+void train_inference_lesson(const LessonRun& run) {
+  const auto& task = std::get<InferenceTask>(run.config.models[run.lesson.model].recipe);
+  learn(run, task);
+  if (!task.pose.empty()) make_frames(run, task);  // again where they are: they are quick
 }
 
 }  // namespace gramloom

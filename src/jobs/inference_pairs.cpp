@@ -24,13 +24,14 @@ std::string place_in(const fs::path& table, std::size_t line) {
 }
 
 // With the range that each has in these poses.
-std::vector<PoseNumber> numbers_of(std::vector<PoseNumber> numbers,
+std::vector<PoseNumber> numbers_of(const std::vector<std::string>& names,
                                    const std::vector<std::vector<double>>& poses) {
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    numbers[k].low = numbers[k].high = poses.front()[k];
+  std::vector<PoseNumber> numbers;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    PoseNumber& number = numbers.emplace_back(names[k], poses.front()[k], poses.front()[k]);
     for (const auto& pose : poses) {
-      numbers[k].low = std::min(numbers[k].low, pose[k]);
-      numbers[k].high = std::max(numbers[k].high, pose[k]);
+      number.low = std::min(number.low, pose[k]);
+      number.high = std::max(number.high, pose[k]);
     }
   }
   return numbers;
@@ -85,8 +86,9 @@ Image read_picture(const fs::path& file, InferencePairs& pairs) {
 
 }  // namespace
 
-PoseTable read_pose_table(const fs::path& file) {
-  std::string text = read_text(file);
+PoseTable read_pose_table(const fs::path& file) { return parse_pose_table(read_text(file), file); }
+
+PoseTable parse_pose_table(std::string text, const fs::path& file) {
   if (!text.ends_with('\n')) text += '\n';
   const std::vector<CsvRow> rows = parse_csv(text);
   if (rows.empty()) throw Error("{}: is no table: a quote is not closed", file.string());
@@ -132,8 +134,7 @@ InferencePairs read_pairs(const fs::path& file, FileHashes& hashes) {
       throw Error("{}: {} pictures need about {:.1f} GB of memory, {:.1f} GB are free",
                   file.string(), count, bytes / 1e9, available_memory() / 1e9);
   }
-  for (const std::string& name : table.names) pairs.numbers.push_back({name, 0, 0});
-  pairs.numbers = numbers_of(pairs.numbers, table.poses);
+  pairs.numbers = numbers_of(table.names, table.poses);
   pairs.poses = std::move(table.poses);
   pairs.hash = hash_of(all);
   return pairs;
@@ -155,13 +156,21 @@ PairSplit split_pairs(std::size_t count, double share, int seed) {
   return split;
 }
 
+std::vector<PoseNumber> learnt_numbers(const PoseTable& table, const PairSplit& split) {
+  std::vector<std::vector<double>> learnt;
+  for (const std::size_t i : split.learnt) learnt.push_back(table.poses[i]);
+  return numbers_of(table.names, learnt);
+}
+
 InferencePairs select_pairs(const InferencePairs& pairs, const std::vector<std::size_t>& wanted) {
   InferencePairs some{pairs.numbers, {}, {}, pairs.pixel_type, pairs.values, pairs.hash};
   for (const std::size_t i : wanted) {
     some.poses.push_back(pairs.poses[i]);
     some.pictures.push_back(pairs.pictures[i]);
   }
-  some.numbers = numbers_of(pairs.numbers, some.poses);
+  std::vector<std::string> names;
+  for (const PoseNumber& number : pairs.numbers) names.push_back(number.name);
+  some.numbers = numbers_of(names, some.poses);
   return some;
 }
 

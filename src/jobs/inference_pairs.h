@@ -31,6 +31,8 @@ struct PoseTable {
 /// Throws Error in one line with file and line: no numbers, two columns of one name, a row of
 /// another number of cells, a cell that is no number, a row without its picture.
 PoseTable read_pose_table(const std::filesystem::path& table);
+/// The same of a text; `table` is what errors call it.
+PoseTable parse_pose_table(std::string text, const std::filesystem::path& table);
 
 /// The pairs of a table with a column 'picture', a file each, from the table's folder on. Throws
 /// Error likewise, and for a picture that cannot be read or is of another size or number of
@@ -45,6 +47,10 @@ struct PairSplit {
 /// `share` of `count` pairs are held out, spread evenly over the table by the seed, and take turns
 /// in the latter two.
 PairSplit split_pairs(std::size_t count, double share, int seed);
+
+/// The numbers of a pose, with their ranges in the poses that are trained on. The table has
+/// `fewest_pairs`.
+std::vector<PoseNumber> learnt_numbers(const PoseTable& table, const PairSplit& split);
 
 /// Those of the pairs.
 InferencePairs select_pairs(const InferencePairs& pairs, const std::vector<std::size_t>& wanted);

@@ -29,8 +29,7 @@ ModelRecipe read_recipe(const toml::table& table) {
   return recipe;
 }
 
-void check_exemplars(const GeneratorRecipe& recipe, const toml::table& table,
-                     const Config& config) {
+void check_entry(const GeneratorRecipe& recipe, const toml::table& table, const Config& config) {
   const auto known = [&](const std::string& name) {
     return std::any_of(config.exemplars.begin(), config.exemplars.end(),
                        [&](const ExemplarEntry& exemplar) { return exemplar.name == name; });
@@ -52,9 +51,18 @@ void check_exemplars(const GeneratorRecipe& recipe, const toml::table& table,
     fail(key_region(table, "blend"), "'blend' is of 2 to 8 exemplars, there are {}", count);
 }
 
-void check_exemplars(const InferenceRecipe& recipe, const toml::table& table, const Config&) {
-  if (recipe.pairs.empty() == recipe.simulation.empty())
+void check_entry(const InferenceTask& task, const toml::table& table, const Config&) {
+  if (task.pairs.empty() == task.simulation.empty())
     fail(key_region(table, "kind"), "an inference needs either 'pairs' or 'simulation'");
+  if (task.pose.empty() && task.to.empty()) {
+    for (const char* key : {"frames", "extrapolate"})
+      if (table.contains(key))
+        fail(key_region(table, key), "'{}' is of a sequence, which needs 'pose' and 'to'", key);
+  } else if (task.pose.size() != task.to.size()) {
+    fail(key_region(table, task.to.empty() ? "pose" : "to"),
+         "'pose' has {} numbers, 'to' has {}: a sequence goes from one to the other",
+         task.pose.size(), task.to.size());
+  }
 }
 
 }  // namespace
@@ -69,7 +77,7 @@ std::vector<ModelEntry> read_models(toml::table& table, const Config& config) {
     model.name = required_text(*entry, "name");
     check_name(model.name, longest_file_name, key_region(*entry, "name"));
     names.add(model.name, key_region(*entry, "name"));
-    std::visit([&](const auto& recipe) { check_exemplars(recipe, *entry, config); }, model.recipe);
+    std::visit([&](const auto& recipe) { check_entry(recipe, *entry, config); }, model.recipe);
     model.place = place(entry->source());
     models.push_back(std::move(model));
   }

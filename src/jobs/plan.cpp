@@ -199,6 +199,10 @@ bool job_matches(const std::string& pattern, const std::string& job) {
          matches(pattern, job);
 }
 
+bool has_selected(const Plan& plan) {
+  return std::ranges::any_of(plan.jobs, &PlannedJob::selected);
+}
+
 Plan make_plan(const Config& config, const std::string& only) {
   Plan plan = list_jobs(config, only);
   // Decoding is most of the work, and waiting for the disk.
@@ -234,8 +238,7 @@ Plan list_jobs(const Config& config, const std::string& only) {
     plan.jobs.push_back(std::move(planned));
   }
   if (plan.jobs.empty()) return plan;  // there are only models to train
-  if (std::none_of(plan.jobs.begin(), plan.jobs.end(),
-                   [](const auto& planned) { return planned.selected; }))
+  if (config.models.empty() && !has_selected(plan))
     throw ConfigError(
         "--only {}: no job of {} matches (* stands for any letters, ? for one, all else for "
         "itself); they are called like {}",

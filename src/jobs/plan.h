@@ -63,7 +63,8 @@ struct Plan {
 };
 
 /// The jobs of a config, of which nothing is known. Selected are those that match `only` (see
-/// job_matches). Throws ConfigError when there are jobs and none matches.
+/// job_matches). Throws ConfigError when there are jobs and none matches, in a config that trains
+/// no models, which may be what is meant.
 Plan list_jobs(const Config& config, const std::string& only = "");
 
 /// Reads the exemplar of the plan's job of this number, unless it is known, and estimates the job.
@@ -74,8 +75,10 @@ void plan_job(const Config& config, Plan& plan, std::size_t number);
 /// from running, but for the memory that is free, is found here, for `check` and for `run`: what is
 /// wrong with its exemplar, what the method refuses, what the files of the results cannot hold.
 /// Throws ConfigError for parameters that a method refuses, for maps that do not fit their picture,
-/// and when no job matches.
+/// and where list_jobs() does.
 Plan make_plan(const Config& config, const std::string& only = "");
+/// Whether any of its jobs is to be done.
+bool has_selected(const Plan& plan);
 
 /// "" when a finished texture can be scored in `available` bytes; otherwise why not.
 std::string scoring_refusal(const PlannedJob& job, double available);

@@ -124,6 +124,10 @@ std::vector<Pose> poses_of(const SimulationParams& params) {
   return poses;
 }
 
+std::string pose_table(const Simulation& simulation) {
+  return table_of(poses_of(simulation.params));
+}
+
 std::vector<PosedSleeve> simulate(const Simulation& simulation, const Control& control) {
   const Size size = simulation.sleeve.size;
   const double bytes = 4.0 * size.width * size.height * simulation.params.poses;

@@ -50,6 +50,9 @@ Simulation parse_simulation(const std::string& text, const std::filesystem::path
 /// degree, as a table holds them.
 std::vector<Pose> poses_of(const SimulationParams& params);
 
+/// Their table, as make_simulation() leaves it.
+std::string pose_table(const Simulation& simulation);
+
 /// A pose and how far its sleeve lies outside the arm's tube: see sleeve_displacement().
 struct PosedSleeve {
   Pose pose;

@@ -11,6 +11,8 @@
 #include "jobs/input_files.h"
 #include "jobs/names.h"
 #include "jobs/output_guard.h"
+#include "jobs/pattern.h"
+#include "jobs/plan.h"
 #include "jobs/text_table.h"
 
 namespace gramloom {
@@ -20,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_inference(const Config& config, const Lesson& lesson) {
-  return std::holds_alternative<InferenceRecipe>(config.models[lesson.model].recipe);
+  return std::holds_alternative<InferenceTask>(config.models[lesson.model].recipe);
 }
 
 void train(const LessonRun& run) {
@@ -48,13 +50,11 @@ std::vector<MethodEntry> methods_of(const Config& config, const Lesson& lesson,
   return methods_of_generator(config, lesson, files);
 }
 
-}  // namespace
-
-std::vector<Lesson> lessons_of(const Config& config) {
+std::vector<Lesson> all_lessons(const Config& config) {
   std::vector<Lesson> lessons;
   for (std::size_t m = 0; m < config.models.size(); ++m) {
     const std::string& name = config.models[m].name;
-    if (std::holds_alternative<InferenceRecipe>(config.models[m].recipe)) {
+    if (std::holds_alternative<InferenceTask>(config.models[m].recipe)) {
       lessons.push_back({m, {}, name});
       continue;
     }
@@ -73,12 +73,46 @@ std::vector<Lesson> lessons_of(const Config& config) {
   return lessons;
 }
 
-std::string lesson_table(const Config& config) {
-  const std::vector<Lesson> lessons = lessons_of(config);
-  check_names(config, lessons);
+// As --only means them.
+std::vector<std::string> model_names(const Config& config) {
+  std::vector<std::string> names;
+  for (const Lesson& lesson : all_lessons(config)) {
+    const std::string& model = config.models[lesson.model].name;
+    if (lesson.exemplars.empty()) names.push_back(model);
+    for (const std::size_t exemplar : lesson.exemplars)
+      names.push_back(fmt::format("{}/{}", config.exemplars[exemplar].name, model));
+  }
+  return names;
+}
+
+// Whether its name is one that --only means, or that of a job of its textures.
+bool is_wanted(const Config& config, const Lesson& lesson, const std::string& only) {
+  const std::string& model = config.models[lesson.model].name;
+  if (lesson.exemplars.empty()) return only.empty() || matches(only, model);
+  for (const std::size_t exemplar : lesson.exemplars)
+    for (const int seed : config.seeds)
+      if (job_matches(only,
+                      fmt::format("{}/{}/seed{}", config.exemplars[exemplar].name, model, seed)))
+        return true;
+  return false;
+}
+
+}  // namespace
+
+std::vector<Lesson> lessons_of(const Config& config, const std::string& only) {
+  std::vector<Lesson> lessons = all_lessons(config);
+  std::erase_if(lessons, [&](const Lesson& lesson) { return !is_wanted(config, lesson, only); });
+  return lessons;
+}
+
+std::string lesson_table(const Config& config, const std::string& only) {
+  check_names(config, lessons_of(config));
+  const std::vector<Lesson> lessons = lessons_of(config, only);
+  if (lessons.empty()) return "";
   std::vector<Row> rows{{"model to train", "memory", "time"}};
   for (const Lesson& lesson : lessons) {
     if (is_inference(config, lesson)) {
+      check_frames(config.models[lesson.model]);
       rows.push_back({lesson.name, "", ""});
       continue;
     }
@@ -90,12 +124,18 @@ std::string lesson_table(const Config& config) {
       rows.push_back({lesson.name, "cannot be trained: " + first_line(error.what()), ""});
     }
   }
-  return text_table(rows, "");
+  return text_table(rows, "") + "\n";
 }
 
 Trained train_models(const Config& config, const RunOptions& options, ProgressBar& bar) {
   Trained trained;
-  const std::vector<Lesson> lessons = lessons_of(config);
+  check_names(config, lessons_of(config));
+  const std::vector<Lesson> lessons = lessons_of(config, options.only);
+  if (lessons.empty())
+    throw ConfigError("--only {}: no model of {} matches (there are {})", options.only,
+                      config.file.string(), fmt::join(model_names(config), ", "));
+  for (const Lesson& lesson : lessons)
+    if (is_inference(config, lesson)) check_frames(config.models[lesson.model]);
   const fs::path folder = options.output / "models";
   std::optional<FileLock> lock;
   try {
@@ -104,16 +144,19 @@ Trained train_models(const Config& config, const RunOptions& options, ProgressBa
     if (options.is_default_output) check_default_output(config, options.output);
     std::vector<InputFile> read = input_files(config);
     for (const ModelEntry& model : config.models)
-      if (const auto* inference = std::get_if<InferenceRecipe>(&model.recipe))
+      if (const auto* inference = std::get_if<InferenceTask>(&model.recipe))
         for (const fs::path& file : {inference->pairs, inference->simulation})
           if (!file.empty()) read.push_back({file, "the config reads"});
     const ProtectedFiles inputs(read);
-    for (const Lesson& lesson : lessons)
-      check_outputs(job_files(options.output, "models/" + lesson.name), inputs);
+    for (const Lesson& lesson : lessons) {
+      const JobFiles files = job_files(options.output, "models/" + lesson.name);
+      check_outputs(files, inputs);
+      if (is_inference(config, lesson))
+        check_frame_files(config.models[lesson.model], files, inputs);
+    }
   } catch (const Error& error) {
     throw ConfigError("--output {}: {}", options.output.string(), error.what());
   }
-  check_names(config, lessons);
   FileHashes hashes;
   for (std::size_t i = 0; i < lessons.size(); ++i) {
     const Lesson& lesson = lessons[i];

@@ -18,11 +18,13 @@ struct Lesson {
   std::vector<std::size_t> exemplars;  // of the config
   std::string name;                    // of its files: "pebbles_stones", or the model's for a blend
 };
-std::vector<Lesson> lessons_of(const Config& config);
+/// Those that match `only` (job_matches()) as the jobs of their textures do, EXEMPLAR/MODEL; an
+/// inference has its own name.
+std::vector<Lesson> lessons_of(const Config& config, const std::string& only = "");
 
-/// The models that a config trains, with what each is expected to need, a line each. Throws Error
-/// for an exemplar that cannot be read.
-std::string lesson_table(const Config& config);
+/// The models that a config trains, of those that match `only`, with what each is expected to need,
+/// a line each. Throws Error for an exemplar that cannot be read.
+std::string lesson_table(const Config& config, const std::string& only);
 
 /// How trainings went, and what became of them: of generators a method each for every exemplar it
 /// has learnt, to be run and scored against it.
@@ -37,11 +39,13 @@ struct Trained {
 ///   NAME.csv                  the trace of its losses
 ///   NAME_000200.png           what it makes after 200 steps, and so on
 ///   NAME_held_out.png         of an inference, beside the truth, the nearest pair and a blend
+///   NAME_frames               the folder of its sequence, as `infer` writes it
 ///   NAME.checkpoint[.csv]     state of an unfinished training
 /// and in `output`/data/NAME the pictures that were simulated for an inference.
 /// With `options.resume`, finished ones are kept, and unfinished ones go on to the same bytes. One
-/// that fails does not stop the others. Throws ConfigError when `output` cannot be written, or when
-/// a file in it that would be replaced is no run's.
+/// that fails does not stop the others. Throws ConfigError when none matches `options.only`, when
+/// `output` cannot be written, or when a file in it that would be replaced is no run's, and for a
+/// sequence of poses outside what would be learnt.
 Trained train_models(const Config& config, const RunOptions& options, ProgressBar& bar);
 
 }  // namespace gramloom

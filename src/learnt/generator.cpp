@@ -109,17 +109,9 @@ Image generate(const GeneratorModel& model, const Generation& wanted, const Cont
 
 Texture split_generated(const Image& joined, const GeneratorDescription& description) {
   Texture texture;
-  const auto& layers = description.layers;
-  for (std::size_t i = 0; i < layers.size();) {
-    // A picture and its alpha are two layers of one name.
-    int count = 0;
-    const std::size_t first = i;
-    for (; i < layers.size() && layers[i].name == layers[first].name; ++i) count += layers[i].count;
-    Image part = extract_channels(joined, layers[first].first, count);
-    if (first == 0)
-      texture.image = std::move(part);
-    else
-      texture.maps[layers[first].name] = std::move(part);
+  for (const GeneratorPart& part : parts_of(description.layers)) {
+    Image& image = part.name.empty() ? texture.image : texture.maps[part.name];
+    image = extract_channels(joined, part.first, part.count);
   }
   return texture;
 }

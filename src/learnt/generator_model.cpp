@@ -54,6 +54,16 @@ void check_description(const GeneratorDescription& description, const std::strin
 
 }  // namespace
 
+std::vector<GeneratorPart> parts_of(const std::vector<GeneratorLayer>& layers) {
+  std::vector<GeneratorPart> parts;
+  for (const GeneratorLayer& layer : layers) {
+    if (parts.empty() || parts.back().name != layer.name)
+      parts.push_back({layer.name, layer.kind, layer.first, 0});
+    parts.back().count += layer.count;
+  }
+  return parts;
+}
+
 int inputs_of(const GeneratorDescription& description, int level) {
   return description.levels[static_cast<std::size_t>(level)].noise +
          (level == 0 ? 0 : description.channels);

@@ -61,6 +61,16 @@ struct GeneratorLayer {
   }
 };
 
+/// Channels that go into one file: a picture or a map, with its alpha, which is a layer of the same
+/// name.
+struct GeneratorPart {
+  std::string name;
+  MapKind kind = MapKind::colour;
+  int first = 0;
+  int count = 0;
+};
+std::vector<GeneratorPart> parts_of(const std::vector<GeneratorLayer>& layers);
+
 /// All that describes a generator but its numbers: the text "gramloom" in its file's metadata.
 struct GeneratorDescription {
   static constexpr int version = 1;

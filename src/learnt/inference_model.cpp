@@ -22,9 +22,9 @@ void check_description(const InferenceDescription& description, const std::strin
     fail("an inference has 1 to 10 sizes");
 }
 
-std::string names_of(const InferenceDescription& description) {
+std::string names_of(const std::vector<PoseNumber>& numbers) {
   std::string names;
-  for (const PoseNumber& number : description.pose)
+  for (const PoseNumber& number : numbers)
     names += fmt::format("{}{}", names.empty() ? "" : ", ", number.name);
   return names;
 }
@@ -85,18 +85,17 @@ void write_inference(const std::filesystem::path& file, const InferenceModel& mo
   write_tensors(file, model.tensors, metadata);
 }
 
-void check_pose(const InferenceDescription& description, const std::vector<double>& pose,
+void check_pose(const std::vector<PoseNumber>& numbers, const std::vector<double>& pose,
                 bool extrapolates) {
-  const auto& numbers = description.pose;
   if (pose.size() != numbers.size())
     throw ConfigError("a pose of {} numbers, the model's has {}: {}", pose.size(), numbers.size(),
-                      names_of(description));
+                      names_of(numbers));
   for (std::size_t i = 0; i < pose.size(); ++i) {
     if (!std::isfinite(pose[i]))
       throw ConfigError("{} = {} is no number", numbers[i].name, pose[i]);
     if (!extrapolates && (pose[i] < numbers[i].low || pose[i] > numbers[i].high))
-      throw ConfigError("{} = {}: the model has learnt {} to {} (extrapolate allows others)",
-                        numbers[i].name, pose[i], numbers[i].low, numbers[i].high);
+      throw ConfigError("{} = {}: learnt are {} to {} (extrapolate allows others)", numbers[i].name,
+                        pose[i], numbers[i].low, numbers[i].high);
   }
 }
 

@@ -139,8 +139,8 @@ void write_inference(const std::filesystem::path& file, const InferenceModel& mo
                      const std::map<std::string, std::string>& more = {});
 
 /// Throws ConfigError for a pose of another number of values than the model's, one that is not
-/// finite, or, unless `extrapolates`, one outside the trained range, with names and range.
-void check_pose(const InferenceDescription& description, const std::vector<double>& pose,
+/// finite, or, unless `extrapolates`, one outside the range that is learnt, with names and range.
+void check_pose(const std::vector<PoseNumber>& numbers, const std::vector<double>& pose,
                 bool extrapolates);
 
 /// The picture of a pose. Plain loops, without LibTorch or oneDNN: a picture of 64×64 takes some

@@ -3,23 +3,13 @@
 #include <charconv>
 
 #include "core/error.h"
-#include "io/safetensors.h"
+#include "neural/tensor_data.h"
 
 namespace gramloom::neural {
 
 namespace {
 
 const std::string optimiser_prefix = "optimiser.";
-
-TensorData to_data(const at::Tensor& tensor) {
-  const at::Tensor values = tensor.contiguous();
-  const float* first = values.data_ptr<float>();
-  return {values.sizes().vec(), {first, first + values.numel()}};
-}
-
-at::Tensor to_tensor(const TensorData& data) {
-  return at::from_blob(const_cast<float*>(data.values.data()), data.shape, at::kFloat).clone();
-}
 
 // The shortest text that is this very number.
 template <class T>

@@ -38,13 +38,7 @@ at::Tensor to_tensor(const Tensors& tensors, const std::string& name, at::IntArr
   const TensorData& data = found->second;
   if (at::IntArrayRef(data.shape) != shape)
     throw Error("the state of a training has another shape of '{}'", name);
-  return at::from_blob(const_cast<float*>(data.values.data()), data.shape, at::kFloat).clone();
-}
-
-TensorData to_data(const at::Tensor& tensor) {
-  const at::Tensor values = tensor.detach().to(at::kFloat).contiguous();
-  const float* first = values.data_ptr<float>();
-  return {values.sizes().vec(), {first, first + values.numel()}};
+  return neural::to_tensor(data);
 }
 
 void keep(const torch::nn::Module& module, const std::string& prefix, Tensors& tensors) {

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "io/safetensors.h"
+#include "neural/tensor_data.h"
 
 namespace gramloom::train {
 
@@ -13,7 +13,7 @@ namespace gramloom::train {
 
 using Tensors = std::map<std::string, TensorData>;
 
-TensorData to_data(const at::Tensor& tensor);
+using neural::to_data;
 /// Throws Error for one that is missing or of another shape.
 at::Tensor to_tensor(const Tensors& tensors, const std::string& name, at::IntArrayRef shape);
 

@@ -93,7 +93,7 @@ TEST_F(InferCommand, LearnsPairsAndInfersPictures) {
 TEST_F(InferCommand, MistakesAreOneLineAndExitCode2) {
   ASSERT_EQ(train({"--quiet"}).exit_code, 0);
   expect_refused({"--pose", "31,0", "--output", "x.exr"},
-                 "--pose 31,0: bend = 31: the model has learnt 0 to 30");
+                 "--pose 31,0: bend = 31: learnt are 0 to 30");
   EXPECT_EQ(
       run({"infer", model_, "--pose", "31,0", "--output", "x.exr", "--extrapolate"}).exit_code, 0);
   expect_refused({"--pose", "-5,0", "--output", "y.exr"}, "bend = -5");
@@ -106,9 +106,15 @@ TEST_F(InferCommand, MistakesAreOneLineAndExitCode2) {
   write_text(folder_ / "q.csv", "bend\n3\n");
   expect_refused({"--poses", "q.csv", "--output", "t"}, "q.csv:1: has no column 'twist'");
   write_text(folder_ / "q.csv", "bend,twist\n3,0\n3,9\n");
-  expect_refused({"--poses", "q.csv", "--output", "t"},
-                 "q.csv:3: twist = 9: the model has learnt -1 to 1");
+  expect_refused({"--poses", "q.csv", "--output", "t"}, "q.csv:3: twist = 9: learnt are -1 to 1");
   EXPECT_FALSE(fs::exists(folder_ / "y.exr"));
+  expect_refused(
+      {"--pose", "3,0", "--to", "4,0", "--output", "t", "--format", "png", "--frames", "0"},
+      "--frames");
+  fs::create_directories(folder_ / "u");
+  write_text(folder_ / "u/frame_0001.exr", "mine");
+  expect_refused({"--pose", "3,0", "--to", "4,0", "--output", "u"}, "would replace u/frame_0001");
+  EXPECT_FALSE(fs::exists(folder_ / "t"));
   write_text(folder_ / model_, "no model");
   expect_refused({"--pose", "3,0", "--output", "y.exr"}, "folds.safetensors");
 }
@@ -124,6 +130,75 @@ TEST_F(InferCommand, PairsThatDoNotMatchFailInOneLine) {
   const Outcome neither = train();
   EXPECT_EQ(neither.exit_code, 2);
   EXPECT_THAT(neither.errors, HasSubstr("i.toml:3:"));
+}
+
+TEST_F(InferCommand, ATrainingMakesTheFramesThatInferMakes) {
+  config("pairs = 'pairs.csv'\npose = [0, 1]\nto = [30, -0.5]\nframes = 3\n");
+  const Outcome trained = train();
+  ASSERT_EQ(trained.exit_code, 0) << trained.errors;
+  EXPECT_THAT(trained.errors, HasSubstr("folds: 3 frames in o/models/folds_frames"));
+  const std::string bytes = file(model_);
+  ASSERT_EQ(run({"infer", model_, "--pose", "0,1", "--to", "30,-0.5", "--frames", "3", "--output",
+                 "s", "--quiet"})
+                .exit_code,
+            0);
+  const auto expect_frames = [&](int count) {
+    for (int i = 1; i <= count; ++i) {
+      const std::string frame = fmt::format("frame_{:04}.exr", i);
+      EXPECT_EQ(file("o/models/folds_frames/" + frame), file("s/" + frame));
+    }
+  };
+  expect_frames(3);
+
+  // They can be asked for, or be lost, when the model is there: it stays as it is.
+  fs::remove_all(folder_ / "o/models/folds_frames");
+  config("pairs = 'pairs.csv'\npose = [0, 1]\nto = [30, -0.5]\nframes = 5\n");
+  ASSERT_EQ(run({"infer", model_, "--pose", "0,1", "--to", "30,-0.5", "--frames", "5", "--output",
+                 "s", "--quiet"})
+                .exit_code,
+            0);
+  const Outcome again = train({"--resume"});
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_THAT(again.errors, HasSubstr("folds: trained before"));
+  EXPECT_EQ(file(model_), bytes);
+  expect_frames(5);
+}
+
+TEST_F(InferCommand, ASequenceThatCannotBeIsRefusedBeforeTraining) {
+  const auto expect_no = [&](const std::string& keys, const std::string& says) {
+    config("pairs = 'pairs.csv'\n" + keys);
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"check", "i.toml"}, {"train", "i.toml", "--output", "o"}}) {
+      const Outcome outcome = run(command);
+      EXPECT_EQ(outcome.exit_code, 2) << keys;
+      EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
+      EXPECT_THAT(outcome.errors, HasSubstr(says));
+    }
+  };
+  expect_no("pose = [0, 0]\nto = [31, 0]\n",
+            "i.toml:1:1: 'to' = [31, 0]: bend = 31: learnt are 0 to 30");
+  expect_no("pose = [0, -2]\nto = [30, 0]\n",
+            "i.toml:1:1: 'pose' = [0, -2]: twist = -2: learnt are -1 to 1");
+  expect_no("pose = [0]\nto = [31]\n", "a pose of 1 numbers, the model's has 2: bend, twist");
+  expect_no("pose = [0, 0]\n", "'pose' has 2 numbers, 'to' has 0");
+  expect_no("frames = 3\n", "'frames' is of a sequence, which needs 'pose' and 'to'");
+  expect_no("pose = [0, 0]\nto = [1, 0]\nframes = 0\n", "frames");
+  EXPECT_FALSE(fs::exists(folder_ / "o"));
+  // A simulation's ranges are known before it is made.
+  write_text(folder_ / "s.toml", "poses = 8\nbend = [0, 50]\n");
+  config("simulation = 's.toml'\npose = [30, 0, 0]\nto = [60, 0, 0]\n");
+  EXPECT_THAT(train().errors, HasSubstr("bend = 60: learnt are "));
+  EXPECT_FALSE(fs::exists(folder_ / "o"));
+
+  config("pairs = 'pairs.csv'\npose = [0, 0]\nto = [31, 0]\nframes = 2\nextrapolate = true\n");
+  fs::create_directories(folder_ / "o/models/folds_frames");
+  write_image(folder_ / "o/models/folds_frames/frame_0002.exr", Image(8, 8, 1), {});
+  const Outcome foreign = train();
+  EXPECT_EQ(foreign.exit_code, 2);
+  EXPECT_THAT(foreign.errors, HasSubstr("frame_0002.exr, which this command did not make"));
+  fs::remove_all(folder_ / "o");
+  EXPECT_EQ(train({"--quiet"}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "o/models/folds_frames/frame_0002.exr"));
 }
 
 TEST_F(InferCommand, ASimulationIsMadeOnce) {

@@ -9,6 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 class TrainCommand : public Workspace {
  protected:
@@ -93,6 +94,25 @@ TEST_F(TrainCommand, OneThatFailsDoesNotStopTheOthers) {
   EXPECT_TRUE(fs::exists(folder_ / "out/t/spots/small/seed1.png"));
 }
 
+TEST_F(TrainCommand, APartOfIt) {
+  write_config("[[method]]\nname = 'big'\nkind = 'phase'\n",
+               "[[exemplar]]\nname = 'rings'\nimage = 'rings.png'\n");
+  const Outcome checked = run({"check", "t.toml", "--only", "rings/*"});
+  EXPECT_EQ(checked.exit_code, 0) << checked.errors;
+  EXPECT_THAT(checked.output, HasSubstr("rings_small"));
+  EXPECT_THAT(checked.output, Not(HasSubstr("spots_small")));
+  const Outcome model = run({"check", "t.toml", "--only", "rings/small"});
+  EXPECT_EQ(model.exit_code, 0) << model.errors;
+  EXPECT_THAT(model.output, HasSubstr("rings_small"));
+  EXPECT_EQ(run({"check", "t.toml", "--only", "moss"}).exit_code, 2);
+  const Outcome outcome = run({"train", "t.toml", "--quiet", "--only", "rings/small"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_TRUE(fs::exists(folder_ / "out/t/models/rings_small.safetensors"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/t/rings/small/seed1.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/t/rings/big/seed1.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/t/models/spots_small.safetensors"));
+}
+
 TEST_F(TrainCommand, LearnsMapsWithThePicture) {
   write_config("[[method]]\nname = 'big'\nkind = 'phase'\n", "maps = { mask = 'm.png' }\n");
   Image map(64, 64, 4, 0.5f);
@@ -139,6 +159,8 @@ TEST_F(TrainCommand, SaysWhatIsWrongInOneLine) {
          "no exemplar is called 'moss'");
   expect({"train", "t.toml", "--set", "model.small.blend=true"}, "is of 2 to 8 exemplars");
   expect({"train", "t.toml", "--set", "model.small.kind='gan'"}, "kind");
+  expect({"train", "t.toml", "--only", "moss/*"},
+         "--only moss/*: no model of t.toml matches (there are spots/small)");
   expect({"generate", "t.toml", "--size", "8", "--output", "g.png"}, "t.toml");
   expect({"generate", "moss", "--size", "8", "--output", "g.png"}, "unknown model 'moss'");
   expect({"generate", "pebbles", "--size", "8x", "--output", "g.png"}, "needed is WIDTHxHEIGHT");

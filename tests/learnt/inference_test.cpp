@@ -98,7 +98,7 @@ TEST(Inference, PosesAreChecked) {
   const InferenceDescription description = some_inference().description;
   const auto refusal = [&](const std::vector<double>& pose, bool extrapolates = false) {
     try {
-      check_pose(description, pose, extrapolates);
+      check_pose(description.pose, pose, extrapolates);
     } catch (const ConfigError& error) {
       return std::string(error.what());
     }
@@ -106,8 +106,7 @@ TEST(Inference, PosesAreChecked) {
   };
   EXPECT_EQ(refusal({0, 30}), "");
   EXPECT_EQ(refusal({1, 2, 3}), "a pose of 3 numbers, the model's has 2: bend, twist");
-  EXPECT_EQ(refusal({120, 0}),
-            "bend = 120: the model has learnt 0 to 90 (extrapolate allows others)");
+  EXPECT_EQ(refusal({120, 0}), "bend = 120: learnt are 0 to 90 (extrapolate allows others)");
   EXPECT_EQ(refusal({120, 0}, true), "");
   EXPECT_EQ(refusal({std::nan(""), 0}, true), "bend = nan is no number");
 }

@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "io/safetensors.h"
 #include "neural/network/network.h"
 #include "neural/normal_numbers.h"
 #include "neural/settings.h"
+#include "neural/tensor_data.h"
 
 namespace gramloom::neural {
 
@@ -18,10 +18,6 @@ at::Tensor orthonormal_rows(const at::Tensor& filters) {
     groups.push_back((q * at::sign(at::diagonal(r))).t());  // the signs make it unique
   }
   return at::cat(groups);
-}
-
-at::Tensor tensor_of(const TensorData& data) {
-  return at::from_blob(const_cast<float*>(data.values.data()), data.shape, at::kFloat).clone();
 }
 
 }  // namespace
@@ -48,8 +44,8 @@ std::vector<FilterWeights> load_filters(const NetworkDescription& description,
   const auto tensors = read_weights(description, shapes, file);
   std::vector<FilterWeights> result;
   for (const auto& shape : shapes)
-    result.push_back({tensor_of(tensors.at(weight_name(shape.layer))),
-                      tensor_of(tensors.at(bias_name(shape.layer)))});
+    result.push_back({to_tensor(tensors.at(weight_name(shape.layer))),
+                      to_tensor(tensors.at(bias_name(shape.layer)))});
   return result;
 }
 
