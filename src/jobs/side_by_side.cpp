@@ -102,24 +102,26 @@ class SideBySide {
   }
 
   void give_tasks() {
-    for (Worker& worker : workers_) {
-      if (worker.task || stopping_) continue;
-      double in_use = 0;
-      for (const Worker& other : workers_) in_use += other.bytes;
-      // The first in line that fits beside the others; alone, whatever it is.
-      for (auto task = tasks_.begin(); task != tasks_.end(); ++task) {
-        const double bytes = bytes_of(*task);
-        if (in_use > 0 && in_use + bytes > memory_) continue;
-        const Task chosen = *task;
-        tasks_.erase(task);
-        if (was_finished(chosen)) return give_tasks();
-        give(worker, chosen, bytes);
-        break;
-      }
-    }
+    for (Worker& worker : workers_)
+      while (!worker.task && !run_.stopped())
+        if (!give_first_that_fits(worker)) break;
   }
 
-  void give(Worker& worker, const Task& task, double bytes) {
+  // The first in line that fits beside the others; alone, whatever it is. False: there is none.
+  bool give_first_that_fits(Worker& worker) {
+    double in_use = 0;
+    for (const Worker& other : workers_) in_use += other.bytes;
+    const auto fits = std::find_if(tasks_.begin(), tasks_.end(), [&](const Task& task) {
+      return in_use == 0 || in_use + bytes_of(task) <= memory_;
+    });
+    if (fits == tasks_.end()) return false;
+    const Task task = *fits;
+    tasks_.erase(fits);
+    if (!was_finished(task)) give(worker, task);
+    return true;
+  }
+
+  void give(Worker& worker, const Task& task) {
     if (task.kind == TaskKind::texture) keep_exemplar(state_, planned_of(task).job, kept_);
     try {
       if (!worker.process)
@@ -132,7 +134,7 @@ class SideBySide {
     }
     worker.process->ask(task);
     worker.task = task;
-    worker.bytes = bytes;
+    worker.bytes = bytes_of(task);
     worker.part = 0;
   }
 
