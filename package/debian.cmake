@@ -2,7 +2,7 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_PACKAGE_CONTACT "gramloom maintainers <maintainers@users.noreply.h-seed-ec02c6d5.example>")
+set(CPACK_PACKAGE_CONTACT "gramloom maintainers <maintainers@gramloom.example>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -19,9 +19,8 @@ execute_process(COMMAND ${GZIP_PROGRAM} -9nkf ${PROJECT_BINARY_DIR}/package/chan
 
 # debian_package(COMPONENT PACKAGE SUMMARY TEXT [FIELD VALUE ...]): FIELDs as CPACK_DEBIAN_PACKAGE_ has them.
 function(debian_package component package summary text)
-  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} RENAME copyright COMPONENT ${component})
-  install(FILES ${PROJECT_BINARY_DIR}/package/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package}
-          COMPONENT ${component})
+  install(FILES package/copyright ${PROJECT_BINARY_DIR}/package/changelog.gz
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component})
   set(CPACK_COMPONENTS_ALL ${CPACK_COMPONENTS_ALL} ${component} PARENT_SCOPE)
   string(TOUPPER CPACK_DEBIAN_${component} prefix)
   set(${prefix}_PACKAGE_NAME ${package} PARENT_SCOPE)
@@ -40,7 +39,7 @@ debian_package(program gramloom "new textures from a small picture of one"
 # Without an optimised BLAS, a picture takes several times as long. Those of threads of their own get in the
 # way of LibTorch's.
 debian_package(neural gramloom-neural "new textures from a small picture of one: neural methods"
-  "${what}\n.\nThis package has the part that needs LibTorch: the method \"neural\", and\ntraining."
+  "${what}\n.\nThis package has the part that needs LibTorch: the method neural, and\ntraining."
   DEPENDS "gramloom ${same_version}, libopenblas0-openmp")
 debian_package(development libgramloom-dev "new textures from a small picture of one: libraries"
   "${what}\n.\nThis package has headers, libraries and a CMake package for programs that\nuse its methods."

@@ -20,13 +20,17 @@ install_modules(neural neural train)
 # The configs name their pictures by ../data.
 install(DIRECTORY configs models data DESTINATION ${CMAKE_INSTALL_DATADIR}/gramloom COMPONENT program
         PATTERN data/readme EXCLUDE)
+install(PROGRAMS configs/cluster/array.sbatch DESTINATION ${CMAKE_INSTALL_DATADIR}/gramloom/configs/cluster
+        COMPONENT program)
+# In no package: Debian has the text of this licence elsewhere, and wants no other copy.
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
 # The manual and completions: the program prints them.
 install(CODE "
-  set(program \"${PROJECT_BINARY_DIR}/gramloom\")
+  set(executable \"${PROJECT_BINARY_DIR}/gramloom\")
   set(share \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}\")
-  execute_process(COMMAND \"\${program}\" manual --output \"\${share}/man\" COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND \"\${executable}\" manual --output \"\${share}/man\" COMMAND_ERROR_IS_FATAL ANY)
   find_program(GZIP_PROGRAM gzip)
   if(GZIP_PROGRAM)
     file(GLOB pages \"\${share}/man/man*/gramloom*.[15]\")
@@ -39,7 +43,7 @@ install(CODE "
     list(GET parts 1 file)
     get_filename_component(folder \"\${share}/\${file}\" DIRECTORY)
     file(MAKE_DIRECTORY \"\${folder}\")
-    execute_process(COMMAND \"\${program}\" completion \${shell} OUTPUT_FILE \"\${share}/\${file}\"
+    execute_process(COMMAND \"\${executable}\" completion \${shell} OUTPUT_FILE \"\${share}/\${file}\"
                     COMMAND_ERROR_IS_FATAL ANY)
   endforeach()" COMPONENT program)
 

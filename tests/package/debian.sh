@@ -48,9 +48,8 @@ inside "rm -r /home/newcomer/*"
 
 say "and the neural part: the first picture"
 install /debs/gramloom-neural_*.deb
-started=$(date +%s%N)
-expect 'user "gramloom run /usr/share/gramloom/configs/quickstart.toml --quiet"'
-echo "first picture after $((($(date +%s%N) - started) / 1000000)) ms"
+TIMEFORMAT="first picture after %R s, of the processors %U s"
+time expect 'user "gramloom run /usr/share/gramloom/configs/quickstart.toml --quiet"'
 expect '[ -s "$root/home/newcomer/out/quickstart/pebbles/neural/seed1.png" ]'
 expect 'user "gramloom make /usr/share/gramloom/data/pebbles.png --size 128 --kind quilting --output made.png --quiet" && [ -s "$root/home/newcomer/made.png" ]'
 for page in gramloom gramloom-run gramloom-config; do expect "user 'man -w $page' >/dev/null"; done
@@ -68,7 +67,7 @@ if ls "$root"/debs/python3-gramloom_*.deb >/dev/null 2>&1; then
 fi
 
 say "removed"
-inside "apt-get purge -y -qq '.*gramloom.*' >/dev/null"
+inside "apt-get purge -y -qq '.*gramloom.*' >/dev/null 2>&1"
 left=$(inside "find / -xdev -iname '*gramloom*' -not -path '/home/*' -not -path '/debs/*' -not -path '/proc/*'")
 expect '[ -z "$left" ]'
 echo "$left"
