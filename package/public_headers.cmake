@@ -10,7 +10,7 @@ function(gramloom_public_headers output)
     file(STRINGS ${source}/${header} includes_of_${header} REGEX "^#include")
   endforeach()
 
-  set(hidden "<(ATen|torch|c10|oneapi|opencv2|OpenImageIO|embree[34])/")
+  set(hidden "<(ATen|torch|c10|oneapi|OpenImageIO|embree[34])/")
   set(found TRUE)
   while(found)  # those that include one found last
     set(found)
