@@ -48,9 +48,13 @@ debian_package(development libgramloom-dev "new textures from a small picture of
   SECTION libdevel)
 get_cmake_property(components COMPONENTS)
 if(python IN_LIST components)
+  # An extension is of one version of Python.
+  execute_process(COMMAND ${GRAMLOOM_PYTHON_EXECUTABLE} -c
+    "from sys import version_info as v; print(f'python3 (>= {v[0]}.{v[1]}), python3 (<< {v[0]}.{v[1] + 1})', end='')"
+    OUTPUT_VARIABLE python COMMAND_ERROR_IS_FATAL ANY)
   debian_package(python python3-gramloom "new textures from a small picture of one: Python module"
     "${what}\n.\nThis package has the module gramloom for Python 3 and NumPy."
-    DEPENDS "gramloom ${same_version}, python3, python3-numpy"
+    DEPENDS "gramloom ${same_version}, ${python}, python3-numpy"
     RECOMMENDS "gramloom-neural ${same_version}"
     SECTION python)
 endif()

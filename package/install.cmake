@@ -82,3 +82,9 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/gramloomConfigVer
 install(FILES ${PROJECT_BINARY_DIR}/package/gramloomConfig.cmake ${PROJECT_BINARY_DIR}/package/gramloomConfigVersion.cmake
         DESTINATION lib/cmake/gramloom COMPONENT development)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libgramloom-dev COMPONENT development)
+
+# All that is installed, as a target.
+add_custom_target(installed DEPENDS gramloom)
+if(TARGET gramloom_python)
+  add_dependencies(installed gramloom_python)
+endif()
