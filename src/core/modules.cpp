@@ -15,7 +15,7 @@ namespace {
 std::filesystem::path own_folder() {
   Dl_info own{};
   dladdr(reinterpret_cast<const void*>(&open_module), &own);
-  return std::filesystem::absolute(own.dli_fname).parent_path();
+  return std::filesystem::absolute(own.dli_fname).lexically_normal().parent_path();
 }
 
 // Opens, one by one, the libraries named in a file (leaves_first.cmake). The dynamic linker looks a
