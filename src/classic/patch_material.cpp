@@ -49,8 +49,8 @@ bool are_enough(const std::vector<int>& finest, const std::vector<int>& counts) 
 
 }  // namespace
 
-Material make_material(const PatchmatchParams& params, double structure, const United& united,
-                       int exemplars, Size texture) {
+PatchMaterial make_material(const PatchmatchParams& params, double structure, const United& united,
+                            int exemplars, Size texture) {
   const Exemplar& whole = united.exemplar();
   Exemplar mirrored;  // of a small one
   const bool small = std::min(whole.image.width, whole.image.height) < smallest_side;
@@ -60,7 +60,7 @@ Material make_material(const PatchmatchParams& params, double structure, const U
     if (!whole.guide.empty()) mirrored.guide = at_least(whole.guide, smallest_side);
   }
   const Exemplar& exemplar = small ? mirrored : whole;
-  Material material;
+  PatchMaterial material;
   PatchSource source{
       .features = patch_features(exemplar.image, structure, material.axes),
       .guide = united.guide().empty() ? std::vector<Image>() : guide_planes(exemplar.guide)};
@@ -90,7 +90,7 @@ Material make_material(const PatchmatchParams& params, double structure, const U
   return material;
 }
 
-int levels_for(const Material& material, int width) {
+int levels_for(const PatchMaterial& material, int width) {
   int levels = 1;
   for (; levels < std::ssize(material.levels); ++levels) {
     const Size origins = material.levels[static_cast<std::size_t>(levels - 1)].origins();

@@ -162,8 +162,8 @@ void write_sources(const PatchHole& hole, const PatchSource& source, Size exempl
 }
 
 /// Makes the holes on all levels.
-void optimise(const PatchmatchParams& params, Material& material, std::vector<PatchHole>& holes,
-              const Random& random, const Control& control) {
+void optimise(const PatchmatchParams& params, PatchMaterial& material,
+              std::vector<PatchHole>& holes, const Random& random, const Control& control) {
   const bool fills = !holes.front().levels.front().known.empty();
   std::size_t levels = 0;
   for (const PatchHole& hole : holes) levels = std::max(levels, hole.levels.size());
@@ -237,8 +237,8 @@ Texture directed_patchmatch(const PatchmatchParams& params, const Request& reque
   if (!fits) wider_guide = padded({.size = asked.size, .guide = united.guide()}, size).guide;
   const Image& guide = fits ? united.guide() : wider_guide;
 
-  Material material = make_material(params, target.known.empty() ? params.structure : 0, united,
-                                    static_cast<int>(request.exemplars.size()), size);
+  PatchMaterial material = make_material(params, target.known.empty() ? params.structure : 0,
+                                         united, static_cast<int>(request.exemplars.size()), size);
   const auto levels = [&](int width) { return levels_for(material, width); };
   std::vector<PatchWindow> windows;
   if (target.known.empty())

@@ -41,7 +41,7 @@ struct Candidate {
   PatchOrigin origin;
   float error = 0;  // of its overlap, over that of patches chosen blindly
   Image pixels;
-  Cut cut;
+  PatchCut cut;
 };
 
 PatchOrigin anywhere(Size positions, Random& random) {

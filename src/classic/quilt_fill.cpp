@@ -80,7 +80,7 @@ class Filling {
   struct Candidate {
     PatchOrigin origin;
     Image pixels;
-    Cut cut;
+    PatchCut cut;
   };
 
   PatchOrigin place_of(const PatchSlot& slot) const {
@@ -92,7 +92,7 @@ class Filling {
   std::vector<Ground> ground_under(PatchOrigin place) const;
   Candidate choose(const Image& old, PatchOrigin place, const std::vector<Ground>& ground,
                    Random& random, float& error);
-  std::vector<float> weights_of(const Cut& cut, const std::vector<Ground>& ground) const;
+  std::vector<float> weights_of(const PatchCut& cut, const std::vector<Ground>& ground) const;
 
   Quilt& quilt_;
   const QuiltMaterial& material_;
@@ -166,7 +166,8 @@ Filling::Candidate Filling::choose(const Image& old, PatchOrigin place,
 }
 
 /// The cut's mask, feathered where the ground is laid: averaged over (2 · feather + 1)² pixels.
-std::vector<float> Filling::weights_of(const Cut& cut, const std::vector<Ground>& ground) const {
+std::vector<float> Filling::weights_of(const PatchCut& cut,
+                                       const std::vector<Ground>& ground) const {
   std::vector<float> weights(cut.mask.begin(), cut.mask.end());
   if (rules_.feather == 0) return weights;
   const cv::Mat mask(patch_.height, patch_.width, CV_32F, weights.data());

@@ -55,9 +55,9 @@ std::vector<int> minimum_cut(const std::vector<float>& errors, int length, int w
   return path;
 }
 
-Cut cut(const Image& old, const Image& fresh, const Sides& sides) {
+PatchCut cut(const Image& old, const Image& fresh, const Sides& sides) {
   const Size patch = old.size();
-  Cut result{std::vector<unsigned char>(to_size(patch.width * patch.height), 1)};
+  PatchCut result{std::vector<unsigned char>(to_size(patch.width * patch.height), 1)};
   for (const Side side : {Side{true, false, sides.left}, Side{true, true, sides.right},
                           Side{false, false, sides.top}, Side{false, true, sides.bottom}}) {
     if (side.depth == 0) continue;

@@ -13,14 +13,14 @@ namespace gramloom {
 std::vector<int> minimum_cut(const std::vector<float>& errors, int length, int width);
 
 /// How a fresh patch is joined to what lies there.
-struct Cut {
+struct PatchCut {
   /// Which pixels to take from `fresh`, 1, and which to leave as they are in `old`, 0, row by row:
   /// everything unfilled, and what lies inside the cut along each filled side.
   std::vector<unsigned char> mask;
   /// Σ (old − fresh)² along the cuts.
   double error = 0;
 };
-Cut cut(const Image& old, const Image& fresh, const Sides& sides);
+PatchCut cut(const Image& old, const Image& fresh, const Sides& sides);
 
 /// The mask as weights of `fresh` in [0, 1], averaged over (2 · radius + 1)² pixels. Unfilled
 /// pixels keep 1; beyond a filled side the mask counts as 0.

@@ -52,9 +52,9 @@ constexpr std::array<std::array<int, 2>, 4> around{{{1, 0}, {0, 1}, {-1, 0}, {0,
 
 }  // namespace
 
-Cut graph_cut(const Image& old, const Image& fresh, const std::vector<Ground>& ground) {
+PatchCut graph_cut(const Image& old, const Image& fresh, const std::vector<Ground>& ground) {
   const Seam seam(old, fresh, ground);
-  Cut result{std::vector<unsigned char>(to_size(old.width * old.height), 1)};
+  PatchCut result{std::vector<unsigned char>(to_size(old.width * old.height), 1)};
   std::vector<int> node(result.mask.size(), -1);
   int nodes = 0;
   for (int y = 0; y < old.height; ++y)

@@ -18,6 +18,6 @@ enum class Ground : unsigned char {
 /// (Kwatra, Schödl, Essa, Turk, Bobick 2003, "Graphcut textures", equation 1), errors squared as in
 /// Efros & Freeman 2001. Departure: seams of earlier patches are not remembered.
 /// `ground` has a line more than the patch on each side, row by row.
-Cut graph_cut(const Image& old, const Image& fresh, const std::vector<Ground>& ground);
+PatchCut graph_cut(const Image& old, const Image& fresh, const std::vector<Ground>& ground);
 
 }  // namespace gramloom

@@ -15,7 +15,7 @@ namespace {
 std::filesystem::path own_folder() {
   Dl_info own{};
   dladdr(reinterpret_cast<const void*>(&open_module), &own);
-  return std::filesystem::absolute(own.dli_fname).parent_path();
+  return std::filesystem::absolute(own.dli_fname).lexically_normal().parent_path();
 }
 
 // Opens, one by one, the libraries named in a file (leaves_first.cmake). The dynamic linker looks a
@@ -27,10 +27,17 @@ void open_libraries(const std::filesystem::path& names) {
   for (std::string name; std::getline(file, name);) dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL);
 }
 
+// Debian's package of a module (package/debian.cmake): LibTorch comes with one of its own.
+std::string_view package_of(std::string_view module) {
+  return module == "neural" || module == "train" ? "gramloom-neural" : "gramloom";
+}
+
 }  // namespace
 
 const void* open_module(std::string_view name) {
   const auto file = own_folder() / fmt::format("libgramloom_{}.so", name);
+  if (!std::filesystem::exists(file))
+    throw Error("{} is missing: install the package {}", file.string(), package_of(name));
   open_libraries(own_folder() / fmt::format("libgramloom_{}.txt", name));
   // Never closed: LibTorch cannot be.
   void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);

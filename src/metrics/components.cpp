@@ -20,7 +20,7 @@ ColourFrame colour_frame(const Image& exemplar) {
 
 Image components(const Image& image, const ColourFrame& frame) {
   return at_least(along_axes(image, frame.pca, frame.scale, component_count, component_count),
-                  smallest_side);
+                  smallest_scored_side);
 }
 
 Image smoothly_halved(const Image& components) {

@@ -15,12 +15,13 @@ struct ColourFrame {
 
 inline constexpr int component_count = 4;
 /// Smallest side of component images; smaller pictures are continued by mirroring.
-inline constexpr int smallest_side = 16;
+inline constexpr int smallest_scored_side = 16;
 
 /// A flat exemplar counts as varying by a thousandth of its largest value.
 ColourFrame colour_frame(const Image& exemplar);
 
-/// `component_count` channels (those beyond the image's are 0), at least `smallest_side` on a side.
+/// `component_count` channels (those beyond the image's are 0), at least `smallest_scored_side` on
+/// a side.
 Image components(const Image& image, const ColourFrame& frame);
 
 /// Half the size (rounded up), smoothed by a Gaussian of 1.2 pixels: so little is left above the

@@ -85,7 +85,7 @@ TEST(Cut, FollowsPixelsThatAgree) {
   for (int y = 0; y < patch.height; ++y)
     for (int x = 0; x < patch.width; ++x)
       if (x == 2 || y == 2 || x == patch.width - 3 || y == patch.height - 3) *fresh.at(x, y) = 0;
-  const Cut best = cut(old, fresh, {4, 4, 4, 4});
+  const PatchCut best = cut(old, fresh, {4, 4, 4, 4});
   EXPECT_EQ(best.error, 0);
   const auto& mask = best.mask;
   for (int y = 0; y < patch.height; ++y)

@@ -17,7 +17,7 @@ TEST(SeamGraph, FollowsWhereBothAgreeAndKeepsWhatIsFirm) {
       ground[static_cast<std::size_t>((y + 1) * (width + 2) + x + 1)] =
           x < 2 ? Ground::firm : Ground::laid;
   }
-  const Cut cut = graph_cut(old, fresh, ground);
+  const PatchCut cut = graph_cut(old, fresh, ground);
   EXPECT_EQ(cut.error, 0);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
@@ -41,7 +41,7 @@ TEST(SeamGraph, WhatCannotBeCutCounts) {
   for (int y = 0; y < 3; ++y)
     for (int x = 0; x < 2; ++x)
       ground[static_cast<std::size_t>((y + 1) * 6 + x + 1)] = Ground::firm;
-  const Cut cut = graph_cut(old, fresh, ground);
+  const PatchCut cut = graph_cut(old, fresh, ground);
   EXPECT_DOUBLE_EQ(cut.error, 3 * 2 * 0.25);
   EXPECT_EQ(cut.mask, (std::vector<unsigned char>{0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1}));
 }
