@@ -10,8 +10,19 @@ config file says, methods() and patterns() list what there is. What is wrong wit
 ConfigError (a ValueError), all else an Error (a RuntimeError). Ctrl-C stops the work.
 """
 
+import os as _os
+
+# Threads of libgomp that have nothing to do shall sleep soon (core/spinning.h). It reads this when it
+# is loaded; what this process starts later shall not see it.
+_spins = not {"GOMP_SPINCOUNT", "OMP_WAIT_POLICY"} & _os.environ.keys()
+if _spins:
+    _os.environ["GOMP_SPINCOUNT"] = "1000"
+try:
+    from . import _gramloom
+finally:
+    if _spins:
+        del _os.environ["GOMP_SPINCOUNT"]
 from ._gramloom import ConfigError, Error, Progress
-from . import _gramloom
 
 __version__ = _gramloom.version
 __all__ = [
@@ -26,10 +37,9 @@ def _toml(value):
     """A value as a config writes it."""
     import json
     import numbers
-    import os
 
-    if isinstance(value, os.PathLike):
-        value = os.fspath(value)
+    if isinstance(value, _os.PathLike):
+        value = _os.fspath(value)
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False)
     if isinstance(value, bool) or type(value).__name__ in ("bool_", "bool"):  # NumPy has its own
@@ -100,11 +110,10 @@ def _set(values):
 
 def _do(work, config, output, only, resume, set, threads, progress):
     import json
-    import os
     import warnings
 
-    folder = "" if output is None else os.fsencode(output)
-    records, complaints = work(os.fsencode(config), folder, only, resume, _set(set), threads,
+    folder = "" if output is None else _os.fsencode(output)
+    records, complaints = work(_os.fsencode(config), folder, only, resume, _set(set), threads,
                                progress)
     for complaint in complaints:
         warnings.warn(complaint, RuntimeWarning, stacklevel=3)
@@ -146,11 +155,9 @@ def patterns():
 def read_image(file):
     """A picture file as an array with the type of its values, of shape (height, width) when it has
     one channel, else (height, width, channels)."""
-    import os
-    return _gramloom.read_image(os.fsencode(file))
+    return _gramloom.read_image(_os.fsencode(file))
 
 
 def write_image(file, image):
     """Writes an array as a picture file, by its ending. Returns notes: where the file has less."""
-    import os
-    return _gramloom.write_image(os.fsencode(file), image)
+    return _gramloom.write_image(_os.fsencode(file), image)
