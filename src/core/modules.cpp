@@ -13,7 +13,8 @@ namespace gramloom {
 std::filesystem::path libraries_folder() {
   Dl_info own{};
   dladdr(reinterpret_cast<const void*>(&libraries_folder), &own);
-  return std::filesystem::absolute(own.dli_fname).parent_path();
+  // Without "..", which the linker leaves in: what lies above it is asked for.
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(own.dli_fname).parent_path());
 }
 
 namespace {
