@@ -92,7 +92,7 @@ def test_arrays_in_any_order_of_memory(pebbles):
 
 def test_parameters_may_be_of_numpy(pebbles):
     made = gramloom.synthesise(pebbles, "quilting", size=numpy.array([40, 24]), seed=numpy.int64(1),
-                               patch_size=numpy.uint8(8))
+                               patch_size=numpy.uint8(8), overlap=None)
     numpy.testing.assert_array_equal(made, gramloom.synthesise(pebbles, **QUILTING))
 
 
@@ -122,6 +122,7 @@ def test_scores_are_those_of_the_command_line(pebbles, tmp_path, command_line):
     ({"kind": "quiltin"}, "unknown kind 'quiltin' (did you mean 'quilting'?)"),
     ({"tile": "all"}, "unknown tile 'all'"),
     ({"size": (0, 8)}, "'size' = 0: allowed are"),
+    ({"size": None}, "no values of type NoneType"),
     ({"seed": -1}, "'seeds' = -1"),
     ({"name": "x"}, "name"),
     ({"threads": -1}, "threads = -1"),

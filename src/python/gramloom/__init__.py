@@ -59,8 +59,7 @@ def _toml(value):
 
 
 def _table(values):
-    return "".join(f"{_toml(key)} = {_toml(value)}\n" for key, value in values.items()
-                   if value is not None)
+    return "".join(f"{_toml(key)} = {_toml(value)}\n" for key, value in values.items())
 
 
 def synthesise(exemplar=None, kind="patchmatch", size=(512, 512), tile="both", seed=1, *,
@@ -73,7 +72,8 @@ def synthesise(exemplar=None, kind="patchmatch", size=(512, 512), tile="both", s
     keys = {"size": size, "tile": tile, "seeds": [seed]}
     if dtype is not None:
         keys["pixel_type"] = _gramloom.pixel_type(dtype)
-    config = _table(keys) + "[method]\nname = \"synthesise\"\n" + _table({"kind": kind, **parameters})
+    given = {key: value for key, value in parameters.items() if value is not None}
+    config = _table(keys) + "[method]\nname = \"synthesise\"\n" + _table({"kind": kind, **given})
     texture, made = _gramloom.synthesise(config, exemplars, all_maps, threads, progress)
     return texture if maps is None else (texture, made)
 
@@ -83,7 +83,8 @@ synthesise.__doc__ = """A texture of one or several exemplars, as a NumPy array.
     exemplar: an array of shape (height, width) or (height, width, channels) with values of type
         uint8, uint16, float16 or float32; of 2 or 4 channels the last is alpha. Several pictures of
         one material as a list. None for kinds that need no exemplar.
-    kind, parameters: the method and its parameters, as in a config; see below and methods().
+    kind, parameters: the method and its parameters, as in a config; None: not set. See below and
+        methods().
     size: width and height, in pixels. tile: which edges meet: none, x, y, both.
     seed: of the random numbers. The same arguments give the same texture, and that of the command
         line.
