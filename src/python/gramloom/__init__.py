@@ -12,8 +12,8 @@ ConfigError (a ValueError), all else an Error (a RuntimeError). Ctrl-C stops the
 
 import os as _os
 
-# Threads of libgomp that have nothing to do shall sleep soon (core/spinning.h). It reads this when it
-# is loaded; what this process starts later shall not see it.
+# Threads of libgomp that have nothing to do shall sleep soon (core/spinning.h). It reads this when
+# it is loaded; what this process starts later shall not see it.
 _spins = not {"GOMP_SPINCOUNT", "OMP_WAIT_POLICY"} & _os.environ.keys()
 if _spins:
     _os.environ["GOMP_SPINCOUNT"] = "1000"
