@@ -7,16 +7,17 @@
 
 #include "core/error.h"
 
-namespace gramloom::detail {
+namespace gramloom {
+
+// That of the library that this function is in.
+std::filesystem::path libraries_folder() {
+  Dl_info own{};
+  dladdr(reinterpret_cast<const void*>(&libraries_folder), &own);
+  // Without "..", which the linker leaves in: what lies above it is asked for.
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(own.dli_fname).parent_path());
+}
 
 namespace {
-
-// Where the library lies that this function is in: in the build folder, or in lib/gramloom.
-std::filesystem::path own_folder() {
-  Dl_info own{};
-  dladdr(reinterpret_cast<const void*>(&open_module), &own);
-  return std::filesystem::absolute(own.dli_fname).lexically_normal().parent_path();
-}
 
 // Opens, one by one, the libraries named in a file (leaves_first.cmake). The dynamic linker looks a
 // name up in all that are opened at once: by themselves, most libraries need few others, but 250
@@ -34,11 +35,11 @@ std::string_view package_of(std::string_view module) {
 
 }  // namespace
 
-const void* open_module(std::string_view name) {
-  const auto file = own_folder() / fmt::format("libgramloom_{}.so", name);
+const void* detail::open_module(std::string_view name) {
+  const auto file = libraries_folder() / fmt::format("libgramloom_{}.so", name);
   if (!std::filesystem::exists(file))
     throw Error("{} is missing: install the package {}", file.string(), package_of(name));
-  open_libraries(own_folder() / fmt::format("libgramloom_{}.txt", name));
+  open_libraries(libraries_folder() / fmt::format("libgramloom_{}.txt", name));
   // Never closed: LibTorch cannot be.
   void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   const void* functions =
@@ -47,4 +48,4 @@ const void* open_module(std::string_view name) {
   return functions;
 }
 
-}  // namespace gramloom::detail
+}  // namespace gramloom

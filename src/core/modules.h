@@ -1,12 +1,15 @@
 #pragma once
 
-#include <string>
+#include <filesystem>
 #include <string_view>
 
 namespace gramloom {
 
 // Parts of the program that bring large libraries along (LibTorch, OpenImageIO) are shared
 // libraries of their own, opened when they are first needed: all else starts without them.
+
+/// Where the shared libraries of the program lie: in the build folder, or in lib/gramloom.
+std::filesystem::path libraries_folder();
 
 namespace detail {
 const void* open_module(std::string_view name);

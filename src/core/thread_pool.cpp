@@ -1,9 +1,9 @@
 #include "core/thread_pool.h"
 
-#include <signal.h>
-
 #include <exception>
 #include <thread>
+
+#include "core/signals_blocked.h"
 
 namespace gramloom {
 
@@ -24,21 +24,6 @@ void await_change(const std::atomic<int>& value, int old) {
   }
   value.wait(old);
 }
-
-/// While one lives, new threads leave signals to those that were there before.
-class SignalsBlocked {
- public:
-  SignalsBlocked() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before_);
-  }
-  ~SignalsBlocked() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  SignalsBlocked(const SignalsBlocked&) = delete;
-
- private:
-  sigset_t before_;
-};
 
 }  // namespace
 

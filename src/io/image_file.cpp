@@ -38,4 +38,8 @@ std::string encoded_image(const std::string& extension, const Image& image,
   return open_module<PicturesModule>().encoded(extension, image, encoding);
 }
 
+std::vector<std::byte> stored_pixels(const Image& image, PixelType type) {
+  return open_module<PicturesModule>().stored_pixels(image, type);
+}
+
 }  // namespace gramloom

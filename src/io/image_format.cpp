@@ -25,20 +25,6 @@ constexpr auto formats = std::to_array<Format>({
     {"hdr", "3", {f32, f32, f32, f32}},
 });
 
-OIIO::TypeDesc oiio_type(PixelType type) {
-  switch (type) {
-    case PixelType::uint8:
-      return OIIO::TypeDesc::UINT8;
-    case PixelType::uint16:
-      return OIIO::TypeDesc::UINT16;
-    case PixelType::half:
-      return OIIO::TypeDesc::HALF;
-    case PixelType::float32:
-      break;
-  }
-  return OIIO::TypeDesc::FLOAT;
-}
-
 void check_fits(const Format& format, Size size, int channels) {
   if (!format.channels.empty() && (channels > 9 || format.channels.find(static_cast<char>(
                                                        '0' + channels)) == std::string::npos))
@@ -100,6 +86,20 @@ const Format& format_of(const OIIO::ImageOutput* output, const std::string& exte
 
 PixelType stored_type(const Format& format, PixelType type) {
   return format.stored_as[static_cast<std::size_t>(type)];
+}
+
+OIIO::TypeDesc oiio_type(PixelType type) {
+  switch (type) {
+    case PixelType::uint8:
+      return OIIO::TypeDesc::UINT8;
+    case PixelType::uint16:
+      return OIIO::TypeDesc::UINT16;
+    case PixelType::half:
+      return OIIO::TypeDesc::HALF;
+    case PixelType::float32:
+      break;
+  }
+  return OIIO::TypeDesc::FLOAT;
 }
 
 OIIO::ImageSpec make_spec(const Format& format, Size size, int channels, const Encoding& encoding,

@@ -30,6 +30,7 @@ std::unique_ptr<OIIO::ImageOutput> writer_for(const std::string& extension);
 /// The writer's format. Throws Error when it is none that we write.
 const Format& format_of(const OIIO::ImageOutput* output, const std::string& extension);
 PixelType stored_type(const Format& format, PixelType type);
+OIIO::TypeDesc oiio_type(PixelType type);
 /// Of a picture as `encoding` says. Throws Error when the format cannot hold it.
 OIIO::ImageSpec make_spec(const Format& format, Size size, int channels, const Encoding& encoding,
                           const Metadata& metadata);

@@ -90,6 +90,15 @@ std::string pictures::encoded(const std::string& extension, const Image& image,
                 extension);
 }
 
+std::vector<std::byte> pictures::stored_pixels(const Image& image, PixelType type) {
+  check_finite(image);
+  const OIIO::ImageSpec spec(image.width, image.height, image.channels, oiio_type(type));
+  if (type != PixelType::half) return stored_values(spec, image.pixels.data(), image.height);
+  std::vector<float> held = image.pixels;
+  clamp_to_half(held);
+  return stored_values(spec, held.data(), image.height);
+}
+
 PixelType pictures::stored_type(const std::string& extension, PixelType type) {
   const auto output = writer_for(extension);
   return gramloom::stored_type(format_of(output.get(), extension), type);

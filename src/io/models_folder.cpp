@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/modules.h"
 #include "io/source_models_folder.h"
 
 namespace gramloom {
@@ -12,8 +13,9 @@ namespace fs = std::filesystem;
 fs::path models_folder() {
   if (const char* named = std::getenv("GRAMLOOM_MODELS")) return named;
   std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path installed = program.parent_path().parent_path() / "share/gramloom/models";
+  // Seen from the libraries, as the program may be Python's.
+  const fs::path prefix = libraries_folder().parent_path().parent_path();
+  const fs::path installed = prefix / "share/gramloom/models";
   return fs::is_directory(installed, error) ? installed : fs::path(source_models_folder);
 }
 

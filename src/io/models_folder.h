@@ -8,8 +8,8 @@
 
 namespace gramloom {
 
-/// The folder of shipped networks: named by GRAMLOOM_MODELS, beside the installed program, or that
-/// of the sources.
+/// The folder of shipped networks: named by GRAMLOOM_MODELS, share/gramloom/models beside lib/
+/// where the libraries are installed, or that of the sources.
 std::filesystem::path models_folder();
 
 /// The files there with this extension (".toml", ".safetensors"), by name.

@@ -3,8 +3,8 @@
 namespace gramloom {
 
 extern "C" const PicturesModule gramloom_pictures_module;
-const PicturesModule gramloom_pictures_module{pictures::read,        pictures::write,
-                                              pictures::stored_type, pictures::difference,
-                                              pictures::open_rows,   pictures::encoded};
+const PicturesModule gramloom_pictures_module{
+    pictures::read,      pictures::write,   pictures::stored_type,  pictures::difference,
+    pictures::open_rows, pictures::encoded, pictures::stored_pixels};
 
 }  // namespace gramloom

@@ -25,6 +25,7 @@ struct PicturesModule {
                                           const Metadata& metadata);
   std::string (*encoded)(const std::string& extension, const Image& image,
                          const Encoding& encoding);
+  std::vector<std::byte> (*stored_pixels)(const Image& image, PixelType type);
 };
 
 namespace pictures {
@@ -34,6 +35,7 @@ std::vector<std::string> write(const std::filesystem::path& path, const Image& i
 PixelType stored_type(const std::string& extension, PixelType type);
 PixelDifference difference(const Image& a, const Image& b, double tolerance);
 std::string encoded(const std::string& extension, const Image& image, const Encoding& encoding);
+std::vector<std::byte> stored_pixels(const Image& image, PixelType type);
 std::unique_ptr<ImageRows> open_rows(const std::filesystem::path& path, Size size, int channels,
                                      const Encoding& encoding, const Metadata& metadata);
 

@@ -130,6 +130,7 @@ void ProgressBar::message(const std::string& line) {
 }
 
 void ProgressBar::complaint(const std::string& line) {
+  if (teller_) return teller_(line);
   clear();
   put(line + "\n");
 }

@@ -28,11 +28,15 @@ class ProgressBar {
 
   /// Job `number` of `count` begins.
   void start(const std::string& job, std::size_t number, std::size_t count);
+  /// The job that was begun last, with its number: "pebbles/quilting/seed1 (2/4)".
+  const std::string& job() const { return job_; }
   void update(const Progress& progress);
   /// Several jobs at once: so many are done, with parts of those at work, whose names follow.
   void show_jobs(double parts, std::size_t done, std::size_t count, const std::string& at_work);
   /// Calls this for each update, too.
   void listen(std::function<void(const Progress&)> listener) { listener_ = std::move(listener); }
+  /// Gives complaints to this in place of standard error.
+  void tell(std::function<void(const std::string&)> teller) { teller_ = std::move(teller); }
   /// A line that stays: how a job went. Not shown when quiet.
   void message(const std::string& line);
   /// A line that stays and is always shown.
@@ -47,6 +51,7 @@ class ProgressBar {
 
   ProgressStyle style_;
   std::function<void(const Progress&)> listener_;
+  std::function<void(const std::string&)> teller_;
   std::string job_;
   Clock::time_point started_;
   Clock::time_point shown_;

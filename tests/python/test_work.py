@@ -1,0 +1,122 @@
+"""Long work: progress, Ctrl-C, other threads of Python, and what an import brings along."""
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import gramloom
+import numpy
+import pytest
+
+LONG = {"kind": "neural", "size": 64, "preset": "fast", "iterations": 1000000}
+
+
+def interrupt_after(seconds):
+    timer = threading.Timer(seconds, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    return timer
+
+
+def test_interrupt_stops_the_work(pebbles):
+    start = time.monotonic()
+    timer = interrupt_after(1)
+    with pytest.raises(KeyboardInterrupt):
+        gramloom.synthesise(pebbles, **LONG)
+    timer.join()
+    assert time.monotonic() - start < 60
+    gramloom.synthesise(pebbles, "histogram", size=16)  # the next one works
+
+
+def test_interrupt_stops_a_run_that_can_go_on(pebbles, tmp_path, config):
+    gramloom.write_image(tmp_path / "e.png", pebbles)
+    file = config("size = 32\nscores = false\n[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"
+                  "[[method]]\nname = 'first'\nkind = 'histogram'\n"
+                  "[[method]]\nname = 'n'\nkind = 'neural'\nlevels = 1\niterations = 1000000\n")
+    timer = interrupt_after(2)
+    with pytest.raises(KeyboardInterrupt):
+        gramloom.run(file, tmp_path / "out")
+    timer.join()
+    # A state goes on only with what it was begun with, so the rest is another job.
+    records = gramloom.run(file, tmp_path / "out", resume=True, set={"iterations": 2})
+    assert [record["status"] for record in records] == ["done", "done"]
+
+
+def test_other_threads_run_meanwhile(pebbles):
+    turns = []
+    done = threading.Event()
+
+    def count():
+        while not done.is_set():
+            turns.append(time.monotonic())
+            time.sleep(0.001)
+
+    other = threading.Thread(target=count)
+    other.start()
+    start = time.monotonic()
+    gramloom.synthesise(pebbles, "neural", size=64, preset="fast", levels=1, iterations=20)
+    end = time.monotonic()
+    done.set()
+    other.join()
+    within = [start] + [turn for turn in turns if start < turn < end] + [end]
+    # Its longest wait is a small part of the work: nothing held the lock from beginning to end.
+    assert max(b - a for a, b in zip(within, within[1:])) < 0.5 * (end - start)
+
+
+def test_two_threads_make_what_one_makes(pebbles):
+    alone = [gramloom.synthesise(pebbles, "quilting", size=64, patch_size=12, seed=seed)
+             for seed in range(4)]
+    made = [None] * 4
+
+    def make(seed):
+        made[seed] = gramloom.synthesise(pebbles, "quilting", size=64, patch_size=12, seed=seed)
+
+    threads = [threading.Thread(target=make, args=(seed,)) for seed in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for one, other in zip(alone, made):
+        numpy.testing.assert_array_equal(one, other)
+
+
+def test_progress_is_told(pebbles):
+    told = []
+    gramloom.synthesise(pebbles, "neural", size=32, preset="fast", levels=1, iterations=5,
+                        progress=told.append)
+    assert told and all(0 <= p.step <= p.steps and p.job == "" for p in told)
+    assert told[-1].loss > 0
+    assert "gramloom.Progress" in repr(told[-1])
+
+
+def test_progress_that_raises_stops_the_work(pebbles):
+    class Enough(Exception):
+        pass
+
+    def stop(_):
+        raise Enough("enough")
+
+    with pytest.raises(Enough, match="enough"):
+        gramloom.synthesise(pebbles, **LONG, progress=stop)
+
+
+def libraries_after(code):
+    script = code + "\nprint(open('/proc/self/maps').read())"
+    return subprocess.run([sys.executable, "-c", script], capture_output=True, text=True,
+                          check=True).stdout
+
+
+def test_an_import_brings_no_large_library():
+    libraries = libraries_after("import gramloom")
+    assert "_gramloom" in libraries
+    for large in ("torch", "OpenImageIO", "embree"):
+        assert large not in libraries
+    script = "import sys, gramloom; assert 'numpy' not in sys.modules"
+    subprocess.run([sys.executable, "-c", script], check=True)
+
+
+def test_classic_methods_need_no_torch():
+    libraries = libraries_after("import gramloom\ngramloom.synthesise("
+                                "kind='procedural', texture='marble', size=8)")
+    assert "torch" not in libraries
