@@ -34,7 +34,7 @@ const std::map<std::string, std::set<std::string>> may_include{
      {"core", "signal", "io", "procedural", "classic", "neural", "learnt", "train", "surface",
       "metrics", "runs"}},
     {"python", {"core", "io", "metrics", "runs", "jobs", "report"}},
-    {"commands", {"core", "io", "learnt", "surface", "runs", "jobs", "report"}},
+    {"commands", {"core", "signal", "io", "learnt", "surface", "runs", "jobs", "report"}},
 };
 
 TEST(Layers, EachFolderIncludesOnlyWhatLiesBelowIt) {
