@@ -373,5 +373,21 @@ INSTANTIATE_TEST_SUITE_P(Optimisers, Interrupted,
                          testing::Values(Optimizer::lbfgs, Optimizer::adam),
                          [](const auto& test) { return std::string(to_word(test.param)); });
 
+// A picture of 4096² had strips of one brightness along its edges, 40 pixels wide: what is cut off
+// grows with the picture, up to what the coarsest levels see of an edge.
+TEST(NeuralSynthesis, MoreIsCutOffALargePictureThanASmallOne) {
+  NeuralParams params;
+  params.patch_sizes = {7, 5};
+  const auto margin = [&](int side, Tile tile) {
+    const Size canvas = neural::canvas_size(params, {{side, side}, tile});
+    return std::pair((canvas.width - side) / 2, (canvas.height - side) / 2);
+  };
+  EXPECT_EQ(margin(256, Tile::none), std::pair(7, 7));
+  EXPECT_EQ(margin(1000, Tile::none), std::pair(25, 25));
+  EXPECT_EQ(margin(4096, Tile::none), std::pair(56, 56));
+  EXPECT_EQ(margin(4096, Tile::x), std::pair(0, 56));
+  EXPECT_EQ(margin(4096, Tile::both), std::pair(0, 0));
+}
+
 }  // namespace
 }  // namespace gramloom
