@@ -7,6 +7,7 @@
 #include "jobs/output_guard.h"
 #include "jobs/run_log.h"
 #include "report/page.h"
+#include "runs/own_files.h"
 
 namespace gramloom {
 
@@ -20,7 +21,9 @@ void gather_records(const std::string& folder) {
     lock = lock_folder(folder);
   } catch (const Error&) {
   }
-  if (lock) rewrite_run_files(folder);
+  const auto scores = std::filesystem::path(folder) / "scores.csv";
+  if (lock && (!std::filesystem::exists(scores) || is_score_sheet(scores)))
+    rewrite_run_files(folder);
 }
 
 ExitCode report_run(const std::string& folder) {

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-constexpr auto patience = 10s;  // for another to begin
+constexpr auto patience = 60s;  // for another to begin, or for a report
 constexpr auto pause = 20ms;
 
 fs::path lock_of(const fs::path& folder) { return folder / "run.lock"; }

@@ -18,7 +18,7 @@ struct SharedFolder {
   FileLock lock;
   bool alone = false;  // until lock.share()
 };
-/// Keeps those out that want a folder for themselves. Waits some seconds for one that begins.
+/// Keeps those out that want a folder for themselves. Waits up to a minute for one that begins.
 /// Throws Error when another keeps all out, or when the file system has no locks.
 SharedFolder share_folder(const std::filesystem::path& folder);
 

@@ -23,7 +23,8 @@ class RunLog {
   /// Reads how the jobs stand in the output folder. `begins`: then writes the files; otherwise
   /// another process has, and this throws Error when it runs another config. Throws Error.
   RunLog(const Config& config, const Plan& plan, const RunOptions& options, bool begins);
-  RunLog(RunLog&&) = default;
+  RunLog(const RunLog&) = delete;
+  RunLog& operator=(const RunLog&) = delete;
   ~RunLog();  // writes what is left to write, if it can
 
   /// Sets how a job stands.

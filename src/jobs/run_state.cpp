@@ -38,6 +38,13 @@ void count_outcome(RunSummary& summary, Status status) {
   }
 }
 
+// Whether this run, in whichever process, is still to end the job.
+bool is_open(const Run& run, const PlannedJob& planned) {
+  if (!job_matches(run.options.only, planned.name)) return false;
+  const auto record = find_record(job_files(run.options.output, planned.name).record);
+  return !record || (record->status != Status::done && record->status != Status::failed);
+}
+
 void put_down(RunState& state, const PlannedJob& planned, const JobRecord& record) {
   state.log.set(planned.name, record);
   or_complain(state.run, [&] { state.log.keep_up(); });
@@ -62,8 +69,11 @@ std::optional<JobRecord> finished_before(RunState& state, const PlannedJob& plan
 void settle_texture(RunState& state, const PlannedJob& planned, const TaskResult& result) {
   ProgressBar& bar = state.run.bar;
   if (!result.elsewhere.empty()) {
-    ++state.summary.elsewhere;
     bar.message(fmt::format("{}: is done by {}", planned.name, result.elsewhere));
+    return;
+  }
+  if (!result.record) {  // the user stopped it before it began
+    ++state.summary.left;
     return;
   }
   const JobRecord& record = *result.record;
@@ -106,10 +116,12 @@ bool wants_diversity(const RunState& state, const JobGroup& group) {
   if (!run.config.scores || run.config.direction.fill || !first.exemplar || !selected) return false;
   if (!run.options.shard)
     remove_stale_temporaries(run.options.output / job_folder(run.config, first), "diversity");
-  const std::vector<NamedRecord> finished = finished_jobs(run, group);
-  // Whichever process finishes the last of them compares them.
-  if (finished.size() < (run.options.shard ? std::max<std::size_t>(group.size(), 2) : 2))
+  // Whichever process ends the last of them compares them.
+  if (run.options.shard && std::any_of(group.begin(), group.end(),
+                                       [&](const auto* planned) { return is_open(run, *planned); }))
     return false;
+  const std::vector<NamedRecord> finished = finished_jobs(run, group);
+  if (finished.size() < 2) return false;
   return !state.log.knows(diversity_of_records(exemplar_name(run.config, first),
                                                run.config.methods[first.method].name, finished));
 }

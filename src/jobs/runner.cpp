@@ -1,6 +1,7 @@
 #include "jobs/runner.h"
 
 #include <algorithm>
+#include <memory>
 
 #include "jobs/folder_lock.h"
 #include "jobs/interruption.h"
@@ -27,7 +28,7 @@ Plan look_ahead(const Config& config, const RunOptions& options) {
 // or a ConfigError.
 struct Output {
   std::optional<FileLock> lock;
-  RunLog log;
+  std::unique_ptr<RunLog> log;
 };
 Output prepare_output(const Config& config, const Plan& plan, const RunOptions& options) {
   const fs::path& output = options.output;
@@ -49,7 +50,7 @@ Output prepare_output(const Config& config, const Plan& plan, const RunOptions& 
     if (alone)
       for (const auto* stem : {"run", "scores", "index", "baseline"})
         remove_stale_temporaries(output, stem);
-    RunLog log(config, plan, options, alone);
+    auto log = std::make_unique<RunLog>(config, plan, options, alone);
     if (options.shard && alone && !lock->share()) throw Error("another run is writing there");
     return {std::move(lock), std::move(log)};
   } catch (const Error& error) {
@@ -71,29 +72,40 @@ void warn_of_slow_blas(const Run& run) {
                     speed));
 }
 
-// Does a job, or finds it finished; run.json follows.
-void do_job(RunState& state, std::size_t number) {
+// Does a job, or finds it finished; run.json follows. False: another process has it at this time.
+bool do_job(RunState& state, std::size_t number, bool waits) {
   Run& run = state.run;
   const PlannedJob& planned = run.plan.jobs[number];
   std::optional<JobRecord> record = finished_before(state, planned);
   if (record) {
     settle_finished_before(state, planned, *record);
   } else {
-    const TaskResult result = do_task(run, {TaskKind::texture, static_cast<int>(number)});
+    const TaskResult result = do_task(run, {TaskKind::texture, static_cast<int>(number), waits});
     settle_texture(state, planned, result);
+    if (!result.elsewhere.empty()) return false;
     record = result.record;
   }
-  if (!record || !lacks_scores(run, planned, *record)) return;
+  if (!record || !lacks_scores(run, planned, *record)) return true;
   run.bar.start(planned.name + ", scores", 1, 1);
   settle_scores(state, planned,
                 run.stopped() ? TaskResult{{}, {}, true, "", ""}
-                              : do_task(run, {TaskKind::scores, static_cast<int>(number)}));
+                              : do_task(run, {TaskKind::scores, static_cast<int>(number), waits}));
+  return true;
+}
+
+void compare_seeds(RunState& state, const JobGroup& group) {
+  Run& run = state.run;
+  if (run.stopped() || !wants_diversity(state, group)) return;
+  const auto first = static_cast<int>(group.front() - run.plan.jobs.data());
+  run.bar.start(job_folder(run.config, group.front()->job) + " diversity", 1, 1);
+  settle_diversity(state, group, do_task(run, {TaskKind::diversity, first}));
 }
 
 void do_one_after_another(RunState& state, std::size_t count) {
   Run& run = state.run;
   std::size_t number = 0;           // of the jobs begun
   std::optional<std::size_t> kept;  // the exemplar of the last job, once it is copied
+  std::vector<std::size_t> elsewhere;
   for (const JobGroup& group : groups_of(run.plan)) {
     const auto first = static_cast<std::size_t>(group.front() - run.plan.jobs.data());
     for (std::size_t i = first; i < first + group.size(); ++i) {
@@ -106,11 +118,15 @@ void do_one_after_another(RunState& state, std::size_t count) {
       }
       run.bar.start(planned.name, number, count);
       keep_exemplar(state, planned.job, kept);
-      do_job(state, i);
+      if (!do_job(state, i, false)) elsewhere.push_back(i);
     }
-    if (run.stopped() || !wants_diversity(state, group)) continue;
-    run.bar.start(job_folder(run.config, group.front()->job) + " diversity", 1, 1);
-    settle_diversity(state, group, do_task(run, {TaskKind::diversity, static_cast<int>(first)}));
+    compare_seeds(state, group);
+  }
+  // Whoever has them may die: a job is left to nobody.
+  for (const std::size_t i : elsewhere) {
+    run.bar.start(run.plan.jobs[i].name, number, count);
+    do_job(state, i, true);
+    compare_seeds(state, group_around(run.plan, i));
   }
 }
 
@@ -122,7 +138,7 @@ RunSummary run(const Config& config, const RunOptions& options, ProgressBar& bar
   Run run{config, options, plan, bar};
   run.keep_up = [&] {
     try {
-      output.log.keep_up();
+      output.log->keep_up();
     } catch (const Error&) {
       // Said when the job has ended.
     }
@@ -131,13 +147,13 @@ RunSummary run(const Config& config, const RunOptions& options, ProgressBar& bar
       std::count_if(plan.jobs.begin(), plan.jobs.end(), [](const auto& j) { return j.selected; }));
   warn_of_slow_blas(run);
   RunSummary summary;
-  RunState state{run, output.log, summary};
+  RunState state{run, *output.log, summary};
   if (options.jobs > 1)
     do_side_by_side(state);
   else
     do_one_after_another(state, count);
-  or_complain(run, [&] { output.log.finish(); });
-  summary.writes = output.log.writes();
+  or_complain(run, [&] { output.log->finish(); });
+  summary.writes = output.log->writes();
   return summary;
 }
 

@@ -32,7 +32,7 @@ struct RunSummary {
   int failed = 0;
   int interrupted = 0;
   int left = 0;
-  int elsewhere = 0;      // another process is doing them
+
   bool unscored = false;  // the user stopped the scoring of a texture
   int writes = 0;         // of run.json and scores.csv
 };

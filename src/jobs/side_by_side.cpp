@@ -124,6 +124,7 @@ class SideBySide {
   void give(Worker& worker, const Task& task) {
     if (task.kind == TaskKind::texture) keep_exemplar(state_, planned_of(task).job, kept_);
     try {
+      if (worker.process && worker.process->has_ended()) worker.process.reset();
       if (!worker.process)
         worker.process = std::make_unique<WorkerProcess>(
             run_.options.command, std::max(1, thread_count() / run_.options.jobs),
@@ -132,10 +133,10 @@ class SideBySide {
       settle(task, failure(task, error.what()));
       return;
     }
-    worker.process->ask(task);
     worker.task = task;
     worker.bytes = bytes_of(task);
     worker.part = 0;
+    if (!worker.process->ask(task)) lose(worker);
   }
 
   // --- what comes back --------------------------------------------------------------------------
@@ -157,15 +158,23 @@ class SideBySide {
   void hear(Worker& worker) {
     const auto answers = worker.process->answers();
     if (!answers) {
-      const std::string why = "its process " + worker.process->how_it_ended();
-      worker.process.reset();
-      finish(worker, failure(*worker.task, why));
+      lose(worker);
       return;
     }
     for (const WorkerAnswer& answer : *answers) {
       worker.part = answer.part;
       if (answer.result) finish(worker, *answer.result);
     }
+  }
+
+  // A worker that has ended, or cannot be spoken to. Once the user has stopped the run that is no
+  // fault of the job's.
+  void lose(Worker& worker) {
+    const std::string why = "its process " + worker.process->how_it_ended();
+    worker.process.reset();
+    TaskResult stopped;
+    stopped.stopped = true;
+    finish(worker, stopping_ ? stopped : failure(*worker.task, why));
   }
 
   void finish(Worker& worker, const TaskResult& result) {
@@ -197,7 +206,9 @@ class SideBySide {
         settle_diversity(state_, groups_[group_of(task)], result);
         return;
     }
-    if (result.record)
+    if (!result.elsewhere.empty() && !stopping_)
+      tasks_.push_back({task.kind, task.job, true});  // whoever has it may die
+    else if (result.record)
       go_on(task, *result.record);
     else
       settled(task);
@@ -206,10 +217,12 @@ class SideBySide {
   // Scores follow the texture, and what compares textures the last of them.
   void go_on(const Task& task, const JobRecord& record) {
     const PlannedJob& planned = planned_of(task);
-    if (task.kind == TaskKind::texture && !stopping_ && lacks_scores(run_, planned, record))
-      tasks_.push_front({TaskKind::scores, task.job});
-    else
+    if (task.kind != TaskKind::texture || !lacks_scores(run_, planned, record))
       settled(task);
+    else if (stopping_)
+      state_.summary.unscored = true;
+    else
+      tasks_.push_front({TaskKind::scores, task.job});
   }
 
   void settled(const Task& task) {

@@ -17,18 +17,14 @@ bool same_group(const PlannedJob& a, const PlannedJob& b) {
   return a.job.exemplar == b.job.exemplar && a.job.method == b.job.method;
 }
 
-constexpr std::chrono::seconds patience{10};  // for a worker of a run that was killed to end
 constexpr std::chrono::milliseconds pause{20};
 
-// Throws Error where nothing can be written or locked. A run that has the folder for itself waits a
-// little for a process that should not be there any more.
-std::optional<FileLock> lock_job(const Run& run, const JobFiles& files) {
+// Throws Error where nothing can be written or locked.
+std::optional<FileLock> lock_job(const Run& run, const JobFiles& files, bool waits) {
   create_folder(files.folder);
-  const auto end = std::chrono::steady_clock::now() + patience;
   for (;;) {
     auto lock = FileLock::take(files.lock, FileLock::Mode::exclusive);
-    if (lock || run.options.shard || run.stopped() || std::chrono::steady_clock::now() > end)
-      return lock;
+    if (lock || !waits || run.stopped()) return lock;
     std::this_thread::sleep_for(pause);
   }
 }
@@ -36,27 +32,32 @@ std::optional<FileLock> lock_job(const Run& run, const JobFiles& files) {
 // Does the work with the job's lock. Where none can be had because of the file system, the work
 // says what is wrong, if anything is.
 template <class F>
-void with_lock(const Run& run, const PlannedJob& planned, TaskResult& result, F&& work) {
+void with_lock(Run& run, const PlannedJob& planned, bool waits, TaskResult& result, F&& work) {
   const JobFiles files = job_files(run.options.output, planned.name);
   std::optional<FileLock> lock;
   try {
-    lock = lock_job(run, files);
+    lock = lock_job(run, files, waits);
     if (!lock) {
       const std::string holder = holder_of(files.lock);
-      result.elsewhere = holder.empty() ? "another process" : holder;
+      result.stopped = waits;
+      if (!waits) result.elsewhere = holder.empty() ? "another process" : holder;
       return;
     }
-  } catch (const Error&) {
+  } catch (const Error& error) {
+    if (run.options.shard) {  // without a lock two could do it
+      result.record = fail_job(run, planned, false, error.what());
+      return;
+    }
   }
   work();
 }
 
-void make_texture(Run& run, const PlannedJob& planned, TaskResult& result) {
+void make_texture(Run& run, const PlannedJob& planned, bool waited, TaskResult& result) {
   // Another process may have finished it since someone looked.
-  if (run.options.shard && run.options.resume && reason_to_run(run, planned).empty())
+  const bool may_be_done = waited || (run.options.shard && run.options.resume);
+  if (may_be_done && reason_to_run(run, planned).empty())
     result.record = find_record(job_files(run.options.output, planned.name).record);
-  else
-    result.record = run_job(run, planned);
+  if (!result.record) result.record = run_job(run, planned);
 }
 
 void score(Run& run, const PlannedJob& planned, TaskResult& result) {
@@ -93,10 +94,11 @@ TaskResult do_task(Run& run, const Task& task) {
   TaskResult result;
   switch (task.kind) {
     case TaskKind::texture:
-      with_lock(run, planned, result, [&] { make_texture(run, planned, result); });
+      with_lock(run, planned, task.waits, result,
+                [&] { make_texture(run, planned, task.waits, result); });
       break;
     case TaskKind::scores:
-      with_lock(run, planned, result, [&] { score(run, planned, result); });
+      with_lock(run, planned, true, result, [&] { score(run, planned, result); });
       break;
     case TaskKind::diversity:
       compare_seeds(run, group_of(run.plan, number), result);
@@ -112,6 +114,11 @@ std::vector<JobGroup> groups_of(const Plan& plan) {
     groups.back().push_back(&planned);
   }
   return groups;
+}
+
+JobGroup group_around(const Plan& plan, std::size_t job) {
+  while (job > 0 && same_group(plan.jobs[job - 1], plan.jobs[job])) --job;
+  return group_of(plan, job);
 }
 
 JobGroup group_of(const Plan& plan, std::size_t job) {

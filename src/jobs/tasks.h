@@ -16,13 +16,15 @@ inline constexpr auto enum_names<TaskKind> = std::to_array<std::string_view>({"t
 
 struct Task {
   TaskKind kind = TaskKind::texture;
-  int job = 0;  // its number in the plan; of a diversity, of the first of its jobs
+  int job = 0;         // its number in the plan; of a diversity, of the first of its jobs
+  bool waits = false;  // for a process that has the job, which may finish it or die
 
   static constexpr auto fields() {
     using T = Task;
     return std::tuple{
         Field{"kind", &T::kind, "what is to be done"},
         Field{"job", &T::job, "the job's number in the plan", "", {0, 1e9}},
+        Field{"waits", &T::waits, "for another process that has the job"},
     };
   }
 };
@@ -52,7 +54,8 @@ TaskResult do_task(Run& run, const Task& task);
 
 /// The jobs of each exemplar and method, as they follow each other in the plan.
 std::vector<JobGroup> groups_of(const Plan& plan);
-/// That of a job.
+/// The jobs of that group from this one on, and all of it.
 JobGroup group_of(const Plan& plan, std::size_t job);
+JobGroup group_around(const Plan& plan, std::size_t job);
 
 }  // namespace gramloom

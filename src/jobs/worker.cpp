@@ -3,6 +3,7 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <iostream>
@@ -17,13 +18,14 @@ namespace {
 
 constexpr std::chrono::milliseconds between_answers{200};
 
-// A parent that is gone has no use for an answer: its signal ends this process.
+// A parent that gets no answer must not wait for it.
 void answer(const WorkerAnswer& answer) {
   const std::string line = to_text(to_json_value(answer), -1) + "\n";
   std::size_t written = 0;
   while (written < line.size()) {
     const ssize_t some = write(worker_answers, line.data() + written, line.size() - written);
-    if (some <= 0) return;
+    if (some < 0 && errno == EINTR) continue;
+    if (some <= 0) _exit(1);
     written += static_cast<std::size_t>(some);
   }
 }

@@ -70,7 +70,10 @@ WorkerProcess::WorkerProcess(const std::vector<std::string>& words, int threads,
     throw Error("cannot start a process: {}", std::strerror(errno));
   }
   const std::string line = greeting + "\n";
-  [[maybe_unused]] const ssize_t written = write(tasks_, line.data(), line.size());
+  if (write(tasks_, line.data(), line.size()) == std::ssize(line)) return;
+  how_it_ended();
+  close_end(answers_);
+  throw Error("cannot speak to a process that was started");
 }
 
 WorkerProcess::~WorkerProcess() {
@@ -78,10 +81,9 @@ WorkerProcess::~WorkerProcess() {
   close_end(answers_);
 }
 
-// One that has ended cannot be asked; its answers say so.
-void WorkerProcess::ask(const Task& task) {
+bool WorkerProcess::ask(const Task& task) {
   const std::string line = to_text(to_json_value(task), -1) + "\n";
-  [[maybe_unused]] const ssize_t written = write(tasks_, line.data(), line.size());
+  return write(tasks_, line.data(), line.size()) == std::ssize(line);
 }
 
 std::optional<std::vector<WorkerAnswer>> WorkerProcess::answers() {

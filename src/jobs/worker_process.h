@@ -21,7 +21,8 @@ class WorkerProcess {
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
-  void ask(const Task& task);
+  /// False: it cannot be asked.
+  bool ask(const Task& task);
   /// To be polled for answers.
   int descriptor() const { return answers_; }
   /// Those that have come; none once it has ended.

@@ -7,7 +7,9 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 #include "core/error.h"
@@ -19,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::chrono::seconds patience{60};
+constexpr std::chrono::milliseconds pause{20};
 constexpr std::string_view mark = "held by gramloom, ";
 
 std::string text_of_lock() {
@@ -31,7 +35,7 @@ std::string text_of_lock() {
 bool is_under_its_name(int descriptor, const fs::path& path) {
   struct stat ours {
   }, named{};
-  return fstat(descriptor, &ours) == 0 && stat(path.c_str(), &named) == 0 &&
+  return fstat(descriptor, &ours) == 0 && ours.st_nlink > 0 && stat(path.c_str(), &named) == 0 &&
          ours.st_ino == named.st_ino && ours.st_dev == named.st_dev;
 }
 
@@ -82,12 +86,21 @@ FileLock& FileLock::operator=(FileLock&& other) noexcept {
 FileLock::~FileLock() {
   if (descriptor_ < 0) return;
   // The last of those who share it removes it.
-  if (!path_.empty() && is_lock(path_) && flock(descriptor_, LOCK_EX | LOCK_NB) == 0)
+  if (!path_.empty() && is_lock(path_) && is_under_its_name(descriptor_, path_) &&
+      flock(descriptor_, LOCK_EX | LOCK_NB) == 0)
     unlink(path_.c_str());
   close(descriptor_);
 }
 
-bool FileLock::share() { return lock(descriptor_, LOCK_SH, path_); }
+bool FileLock::share() {
+  // The system gives the exclusive lock up first: another may have it for a moment.
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (!lock(descriptor_, LOCK_SH, path_)) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(pause);
+  }
+  return true;
+}
 
 void remove_stale_lock(const fs::path& path) {
   std::error_code ignored;

@@ -83,6 +83,8 @@ TEST_F(Spread, ShardsTogetherAreTheWholeRun) {
     EXPECT_NE(outcome.errors.find("gramloom report all makes the page"), std::string::npos);
   }
   EXPECT_FALSE(fs::exists(folder_ / "all/index.html"));
+  EXPECT_FALSE(fs::exists(folder_ / "run.json")) << "nothing is written beside the folder";
+  EXPECT_FALSE(fs::exists(folder_ / "scores.csv"));
   EXPECT_EQ(run({"report", "all"}).exit_code, 0);
   EXPECT_TRUE(fs::exists(folder_ / "all/index.html"));
   EXPECT_EQ(results("one"), results("all"));
@@ -135,11 +137,17 @@ TEST_F(Spread, CtrlCStopsAllProcessesAndResumeGoesOn) {
   wait_for([&] { return kill(worker, 0) == -1; });
 }
 
-TEST_F(Spread, AJobThatAnotherProcessDoesIsLeftToIt) {
-  ASSERT_EQ(run({"run", "c.toml", "--shard", "1/1"}).exit_code, 0);
-  const auto lock = FileLock::take(folder_ / "out/c/e/q/seed1.lock", FileLock::Mode::exclusive);
-  const Outcome outcome = run({"run", "c.toml", "--shard", "1/1"});
+TEST_F(Spread, AJobThatAnotherProcessHasIsDoneAtTheEndIfThatOneDies) {
+  fs::create_directories(folder_ / "out/c/e/q");
+  auto lock = FileLock::take(folder_ / "out/c/e/q/seed1.lock", FileLock::Mode::exclusive);
+  Process process(folder_, {"run", "c.toml", "--shard", "1/1"});
+  wait_for([&] { return record("e/q/seed2") && record("e/q/seed2")->status == Status::done; });
+  EXPECT_FALSE(record("e/q/seed1"));
+  lock.reset();  // as a process that was killed
+  const Outcome outcome = process.wait();
   EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(record("e/q/seed1")->status, Status::done);
+  EXPECT_TRUE(fs::exists(folder_ / "out/c/e/q/diversity.json"));
   EXPECT_NE(outcome.errors.find(fmt::format("e/q/seed1: is done by process {} on ", getpid())),
             std::string::npos)
       << outcome.errors;
