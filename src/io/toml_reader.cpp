@@ -88,6 +88,13 @@ void check_toml_nesting(std::string_view text, const std::string& name) {
   }
 }
 
+// The parser quotes what it saw, a line's end too.
+std::string on_one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) line += c == '\n' ? "\\n" : c == '\r' ? "\\r" : std::string(1, c);
+  return line;
+}
+
 }  // namespace
 
 toml::table parse_toml(std::string_view text, const std::string& name) {
@@ -95,7 +102,7 @@ toml::table parse_toml(std::string_view text, const std::string& name) {
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
-    fail(error.source(), "{}", error.description());
+    fail(error.source(), "{}", on_one_line(error.description()));
   }
 }
 

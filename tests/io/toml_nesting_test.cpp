@@ -1,4 +1,4 @@
-// Nesting of TOML: a file does not choose how deep our stack goes.
+// Nesting of TOML: a file does not choose how deep our stack goes; and errors of its parser.
 #include <gmock/gmock.h>
 
 #include "io/temp_folder.h"
@@ -39,6 +39,12 @@ TEST(TomlNesting, AnOverrideTooDeepIsAWord) {
   const std::string value = repeat("[", 60'000);
   const toml::table table = parse_override("size", value, "size=...");
   EXPECT_EQ(table.get("size")->value<std::string>(), value);
+}
+
+// Found by fuzzing.
+TEST(TomlErrors, AreOneLineAlsoWhereTheParserSawALinesEnd) {
+  EXPECT_EQ(error_of([&] { parse_toml("a =t\nb = 1\n", "c.toml"); }),
+            "c.toml:1:5: Error while parsing boolean: expected 'true', saw 't\\n'");
 }
 
 }  // namespace
