@@ -33,12 +33,8 @@ void keep_large_buffers() {
 RunOptions begin_run(const Config& config, const std::string& output, bool resume,
                      const std::vector<std::string>& words) {
   watch_signals();
-  RunOptions options;
-  options.is_default_output = output.empty();
-  options.output = output.empty() ? default_output(config) : std::filesystem::path(output);
-  options.resume = resume;
+  RunOptions options = run_options(config, output, resume, words);
   options.stop = stop_asked;
-  options.command = words;
   return options;
 }
 

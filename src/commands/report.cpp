@@ -15,26 +15,25 @@ namespace {
 
 // Shards have left records, and what follows from them is to be of all. Not while some still work:
 // they do so at their end.
-void gather_records(const std::string& folder) {
+RunOnDisk gather_records(const std::string& folder) {
   std::optional<FileLock> lock;
   try {
     lock = lock_folder(folder);
   } catch (const Error&) {
   }
-  const auto scores = std::filesystem::path(folder) / "scores.csv";
-  if (lock && (!std::filesystem::exists(scores) || is_score_sheet(scores)))
-    rewrite_run_files(folder);
+  RunOnDisk run = read_run(folder);
+  const auto scores = run.folder / "scores.csv";
+  if (lock && (!std::filesystem::exists(scores) || is_score_sheet(scores))) rewrite_run_files(run);
+  return run;
 }
 
 ExitCode report_run(const std::string& folder) {
   try {
     check_page(folder);
-
   } catch (const Error& error) {
     throw ConfigError("report {}: {}", folder, error.what());
   }
-  gather_records(folder);
-  return print(write_page(folder).string() + "\n");
+  return print(write_page(gather_records(folder)).string() + "\n");
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ struct TrainArguments {
 ExitCode train(const TrainArguments& arguments) {
   keep_large_buffers();
   use_threads(arguments.threads);
-  Config config = read_config(arguments.config.config, arguments.config.set);
+  const Config config = read_config(arguments.config.config, arguments.config.set);
   if (config.models.empty())
     throw ConfigError("{}: there is no [[model]] to train", config.file.string());
   if (std::filesystem::is_regular_file(config.file)) bound_spinning(arguments.words);
@@ -42,13 +42,9 @@ ExitCode train(const TrainArguments& arguments) {
     bar.complaint("gramloom: interrupted; --resume goes on");
     return interrupted;
   }
-  // Then their textures, with those of the config's methods beside them, as any run.
-  config.models.clear();
-  config.methods.insert(config.methods.end(), trained.methods.begin(), trained.methods.end());
-  const bool nothing_to_show =
-      options.only.empty() ? config.methods.empty() : trained.methods.empty();
-  if (nothing_to_show) return trained.failed > 0 ? job_failed : all_done;
-  const ExitCode ended = end_run(options, run(config, options, bar), bar);
+  const auto textures = textures_of_trained(config, trained, options.only);
+  if (!textures) return trained.failed > 0 ? job_failed : all_done;
+  const ExitCode ended = end_run(options, run(*textures, options, bar), bar);
   return ended == all_done && trained.failed > 0 ? job_failed : ended;
 }
 

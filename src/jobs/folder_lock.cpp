@@ -2,19 +2,17 @@
 
 #include <chrono>
 #include <string>
-#include <thread>
 
 #include "core/error.h"
+#include "core/polling.h"
 
 namespace gramloom {
 
 namespace {
 
 namespace fs = std::filesystem;
-using namespace std::chrono_literals;
 
-constexpr auto patience = 60s;  // for another to begin, or for a report
-constexpr auto pause = 20ms;
+constexpr std::chrono::seconds patience{60};  // for another to begin, or for a report
 
 fs::path lock_of(const fs::path& folder) { return folder / "run.lock"; }
 
@@ -37,15 +35,16 @@ std::optional<FileLock> lock_folder(const fs::path& folder) {
 }
 
 SharedFolder share_folder(const fs::path& folder) {
-  const auto end = std::chrono::steady_clock::now() + patience;
-  do {
-    if (auto lock = FileLock::take(lock_of(folder), FileLock::Mode::exclusive))
-      return {std::move(*lock), true};
-    if (auto lock = FileLock::take(lock_of(folder), FileLock::Mode::shared))
-      return {std::move(*lock), false};
-    std::this_thread::sleep_for(pause);
-  } while (std::chrono::steady_clock::now() < end);
-  refuse(folder);
+  std::optional<FileLock> lock;
+  bool alone = false;
+  const bool taken = comes_true(patience, [&] {
+    lock = FileLock::take(lock_of(folder), FileLock::Mode::exclusive);
+    alone = lock.has_value();
+    if (!lock) lock = FileLock::take(lock_of(folder), FileLock::Mode::shared);
+    return lock.has_value();
+  });
+  if (!taken) refuse(folder);
+  return {std::move(*lock), alone};
 }
 
 }  // namespace gramloom

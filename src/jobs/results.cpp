@@ -57,14 +57,13 @@ OutputFormat format_of_made_map(const Config& config, const std::string& name, c
   return format;
 }
 
-// With the format's `low` as 0 and its `high` as 1.
+}  // namespace
+
 Image scaled(Image map, const OutputFormat& format) {
   if (format.low != 0 || format.high != 1)
     for (float& value : map.pixels) value = (value - format.low) / (format.high - format.low);
   return map;
 }
-
-}  // namespace
 
 OutputFormat output_format(const Config& config, const Encoding& exemplar, int channels) {
   OutputFormat output{"", exemplar, 0, 1, {}};

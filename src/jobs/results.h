@@ -26,6 +26,9 @@ struct OutputFormat {
 };
 OutputFormat output_format(const Config& config, const Encoding& exemplar, int channels);
 
+/// With the format's `low` as 0 and its `high` as 1.
+Image scaled(Image map, const OutputFormat& format);
+
 /// Whether files with this extension do not give back what was written.
 bool is_lossy(const std::string& extension);
 

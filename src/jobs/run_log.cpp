@@ -10,7 +10,6 @@
 #include "metrics/scores.h"
 #include "runs/format.h"
 #include "runs/job_files.h"
-#include "runs/run_folder.h"
 #include "runs/score_sheet.h"
 
 namespace gramloom {
@@ -146,11 +145,10 @@ void RunLog::write() {
   ++writes_;
 }
 
-void rewrite_run_files(const fs::path& folder) {
-  RunOnDisk run = read_run(folder);
+void rewrite_run_files(const RunOnDisk& run) {
   std::vector<NamedRecord> jobs;
-  for (JobOnDisk& job : run.jobs) jobs.push_back({job.name, std::move(job.record)});
-  write_run_files(folder, std::move(run.run), jobs, run.diversity);
+  for (const JobOnDisk& job : run.jobs) jobs.push_back({job.name, job.record});
+  write_run_files(run.folder, run.run, jobs, run.diversity);
 }
 
 }  // namespace gramloom

@@ -9,7 +9,7 @@
 
 #include "jobs/plan.h"
 #include "jobs/runner.h"
-#include "runs/run_record.h"
+#include "runs/run_folder.h"
 
 namespace gramloom {
 
@@ -58,7 +58,7 @@ class RunLog {
   std::chrono::steady_clock::duration writing_{};  // how long that took
 };
 
-/// Writes run.json and scores.csv again, by the records of a run's folder. Throws Error.
-void rewrite_run_files(const std::filesystem::path& folder);
+/// Writes run.json and scores.csv of a run again, by its records. Throws Error.
+void rewrite_run_files(const RunOnDisk& run);
 
 }  // namespace gramloom

@@ -73,14 +73,14 @@ void warn_of_slow_blas(const Run& run) {
 }
 
 // Does a job, or finds it finished; run.json follows. False: another process has it at this time.
-bool do_job(RunState& state, std::size_t number, bool waits) {
+bool do_job(RunState& state, const PlannedJob& planned, bool waits) {
   Run& run = state.run;
-  const PlannedJob& planned = run.plan.jobs[number];
+  const int number = number_of(run.plan, planned);
   std::optional<JobRecord> record = finished_before(state, planned);
   if (record) {
     settle_finished_before(state, planned, *record);
   } else {
-    const TaskResult result = do_task(run, {TaskKind::texture, static_cast<int>(number), waits});
+    const TaskResult result = do_task(run, {TaskKind::texture, number, waits});
     settle_texture(state, planned, result);
     if (!result.elsewhere.empty()) return false;
     record = result.record;
@@ -89,14 +89,14 @@ bool do_job(RunState& state, std::size_t number, bool waits) {
   run.bar.start(planned.name + ", scores", 1, 1);
   settle_scores(state, planned,
                 run.stopped() ? TaskResult{{}, {}, true, "", ""}
-                              : do_task(run, {TaskKind::scores, static_cast<int>(number), waits}));
+                              : do_task(run, {TaskKind::scores, number, waits}));
   return true;
 }
 
 void compare_seeds(RunState& state, const JobGroup& group) {
   Run& run = state.run;
   if (run.stopped() || !wants_diversity(state, group)) return;
-  const auto first = static_cast<int>(group.front() - run.plan.jobs.data());
+  const int first = number_of(run.plan, *group.front());
   run.bar.start(job_folder(run.config, group.front()->job) + " diversity", 1, 1);
   settle_diversity(state, group, do_task(run, {TaskKind::diversity, first}));
 }
@@ -105,32 +105,40 @@ void do_one_after_another(RunState& state, std::size_t count) {
   Run& run = state.run;
   std::size_t number = 0;           // of the jobs begun
   std::optional<std::size_t> kept;  // the exemplar of the last job, once it is copied
-  std::vector<std::size_t> elsewhere;
+  JobGroup elsewhere;
   for (const JobGroup& group : groups_of(run.plan)) {
-    const auto first = static_cast<std::size_t>(group.front() - run.plan.jobs.data());
-    for (std::size_t i = first; i < first + group.size(); ++i) {
-      const PlannedJob& planned = run.plan.jobs[i];
-      if (!planned.selected) continue;
+    for (const PlannedJob* planned : group) {
+      if (!planned->selected) continue;
       ++number;
       if (run.stopped()) {
         ++state.summary.left;
         continue;
       }
-      run.bar.start(planned.name, number, count);
-      keep_exemplar(state, planned.job, kept);
-      if (!do_job(state, i, false)) elsewhere.push_back(i);
+      run.bar.start(planned->name, number, count);
+      keep_exemplar(state, planned->job, kept);
+      if (!do_job(state, *planned, false)) elsewhere.push_back(planned);
     }
     compare_seeds(state, group);
   }
   // Whoever has them may die: a job is left to nobody.
-  for (const std::size_t i : elsewhere) {
-    run.bar.start(run.plan.jobs[i].name, number, count);
-    do_job(state, i, true);
-    compare_seeds(state, group_around(run.plan, i));
+  for (const PlannedJob* planned : elsewhere) {
+    run.bar.start(planned->name, number, count);
+    do_job(state, *planned, true);
+    compare_seeds(state, group_of(run.plan, number_of(run.plan, *planned)));
   }
 }
 
 }  // namespace
+
+RunOptions run_options(const Config& config, const fs::path& output, bool resume,
+                       const std::vector<std::string>& command) {
+  RunOptions options;
+  options.is_default_output = output.empty();
+  options.output = output.empty() ? default_output(config) : output;
+  options.resume = resume;
+  options.command = command;
+  return options;
+}
 
 RunSummary run(const Config& config, const RunOptions& options, ProgressBar& bar) {
   const Plan plan = look_ahead(config, options);

@@ -25,6 +25,10 @@ struct RunOptions {
   std::vector<InputFile> inputs;     // that must stay as they are, beside those of the config
 };
 
+/// Those of a run into `output`, or into the config's own folder where that is empty.
+RunOptions run_options(const Config& config, const std::filesystem::path& output, bool resume,
+                       const std::vector<std::string>& command);
+
 /// How the jobs of a run went; `left` were not begun because the user asked to stop.
 struct RunSummary {
   int done = 0;

@@ -50,18 +50,14 @@ class SideBySide {
     unsettled_.resize(groups_.size());
     for (std::size_t g = 0; g < groups_.size(); ++g)
       for (const PlannedJob* planned : groups_[g]) {
-        const auto number = static_cast<int>(planned - run_.plan.jobs.data());
         group_of_.push_back(g);
         if (!planned->selected) continue;
         ++count_;
         ++unsettled_[g];
-        tasks_.push_back({TaskKind::texture, number});
+        tasks_.push_back({TaskKind::texture, number_of(run_.plan, *planned)});
       }
   }
 
-  const PlannedJob& planned_of(const Task& task) const {
-    return run_.plan.jobs[static_cast<std::size_t>(task.job)];
-  }
   std::size_t group_of(const Task& task) const {
     return group_of_[static_cast<std::size_t>(task.job)];
   }
@@ -87,7 +83,7 @@ class SideBySide {
   // Those that an earlier run finished cost no process.
   bool was_finished(const Task& task) {
     if (task.kind != TaskKind::texture) return false;
-    const PlannedJob& planned = planned_of(task);
+    const PlannedJob& planned = job_of(run_.plan, task);
     const auto record = finished_before(state_, planned);
     if (!record) return false;
     settle_finished_before(state_, planned, *record);
@@ -96,7 +92,7 @@ class SideBySide {
   }
 
   double bytes_of(const Task& task) const {
-    const PlannedJob& planned = planned_of(task);
+    const PlannedJob& planned = job_of(run_.plan, task);
     return program_memory(run_.config.methods[planned.job.method].method) +
            std::max({planned.cost.bytes, planned.finishing.bytes, planned.scoring.bytes});
   }
@@ -122,7 +118,7 @@ class SideBySide {
   }
 
   void give(Worker& worker, const Task& task) {
-    if (task.kind == TaskKind::texture) keep_exemplar(state_, planned_of(task).job, kept_);
+    if (task.kind == TaskKind::texture) keep_exemplar(state_, job_of(run_.plan, task).job, kept_);
     try {
       if (worker.process && worker.process->has_ended()) worker.process.reset();
       if (!worker.process)
@@ -189,12 +185,12 @@ class SideBySide {
     if (task.kind == TaskKind::diversity)
       result.error = why;
     else
-      result.record = fail_job(run_, planned_of(task), task.kind == TaskKind::scores, why);
+      result.record = fail_job(run_, job_of(run_.plan, task), task.kind == TaskKind::scores, why);
     return result;
   }
 
   void settle(const Task& task, const TaskResult& result) {
-    const PlannedJob& planned = planned_of(task);
+    const PlannedJob& planned = job_of(run_.plan, task);
     switch (task.kind) {
       case TaskKind::texture:
         settle_texture(state_, planned, result);
@@ -216,7 +212,7 @@ class SideBySide {
 
   // Scores follow the texture, and what compares textures the last of them.
   void go_on(const Task& task, const JobRecord& record) {
-    const PlannedJob& planned = planned_of(task);
+    const PlannedJob& planned = job_of(run_.plan, task);
     if (task.kind != TaskKind::texture || !lacks_scores(run_, planned, record))
       settled(task);
     else if (stopping_)
@@ -229,8 +225,7 @@ class SideBySide {
     ++settled_;
     const std::size_t group = group_of(task);
     if (--unsettled_[group] > 0 || stopping_ || !wants_diversity(state_, groups_[group])) return;
-    const auto first = static_cast<int>(groups_[group].front() - run_.plan.jobs.data());
-    tasks_.push_front({TaskKind::diversity, first});
+    tasks_.push_front({TaskKind::diversity, task.job});
   }
 
   void show() {
@@ -239,7 +234,7 @@ class SideBySide {
     for (const Worker& worker : workers_) {
       if (!worker.task) continue;
       if (worker.task->kind == TaskKind::texture) parts += worker.part;
-      at_work += (at_work.empty() ? "" : ", ") + planned_of(*worker.task).name;
+      at_work += (at_work.empty() ? "" : ", ") + job_of(run_.plan, *worker.task).name;
     }
     run_.bar.show_jobs(parts, settled_, count_, at_work);
     if (run_.keep_up) run_.keep_up();

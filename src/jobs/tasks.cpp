@@ -1,8 +1,8 @@
 #include "jobs/tasks.h"
 
-#include <chrono>
 #include <thread>
 
+#include "core/polling.h"
 #include "io/text_file.h"
 #include "jobs/interruption.h"
 #include "runs/file_lock.h"
@@ -17,15 +17,13 @@ bool same_group(const PlannedJob& a, const PlannedJob& b) {
   return a.job.exemplar == b.job.exemplar && a.job.method == b.job.method;
 }
 
-constexpr std::chrono::milliseconds pause{20};
-
 // Throws Error where nothing can be written or locked.
 std::optional<FileLock> lock_job(const Run& run, const JobFiles& files, bool waits) {
   create_folder(files.folder);
   for (;;) {
     auto lock = FileLock::take(files.lock, FileLock::Mode::exclusive);
     if (lock || !waits || run.stopped()) return lock;
-    std::this_thread::sleep_for(pause);
+    std::this_thread::sleep_for(polling_pause);
   }
 }
 
@@ -89,8 +87,7 @@ void compare_seeds(Run& run, const JobGroup& group, TaskResult& result) {
 }  // namespace
 
 TaskResult do_task(Run& run, const Task& task) {
-  const auto number = static_cast<std::size_t>(task.job);
-  const PlannedJob& planned = run.plan.jobs.at(number);
+  const PlannedJob& planned = job_of(run.plan, task);
   TaskResult result;
   switch (task.kind) {
     case TaskKind::texture:
@@ -101,7 +98,7 @@ TaskResult do_task(Run& run, const Task& task) {
       with_lock(run, planned, true, result, [&] { score(run, planned, result); });
       break;
     case TaskKind::diversity:
-      compare_seeds(run, group_of(run.plan, number), result);
+      compare_seeds(run, group_of(run.plan, task.job), result);
       break;
   }
   return result;
@@ -116,16 +113,23 @@ std::vector<JobGroup> groups_of(const Plan& plan) {
   return groups;
 }
 
-JobGroup group_around(const Plan& plan, std::size_t job) {
-  while (job > 0 && same_group(plan.jobs[job - 1], plan.jobs[job])) --job;
-  return group_of(plan, job);
+JobGroup group_of(const Plan& plan, int job) {
+  auto first = static_cast<std::size_t>(job);
+  while (first > 0 && same_group(plan.jobs[first - 1], plan.jobs[first])) --first;
+  JobGroup group;
+  for (std::size_t i = first; i < plan.jobs.size(); ++i) {
+    if (!same_group(plan.jobs[first], plan.jobs[i])) break;
+    group.push_back(&plan.jobs[i]);
+  }
+  return group;
 }
 
-JobGroup group_of(const Plan& plan, std::size_t job) {
-  JobGroup group;
-  for (std::size_t i = job; i < plan.jobs.size() && same_group(plan.jobs[job], plan.jobs[i]); ++i)
-    group.push_back(&plan.jobs[i]);
-  return group;
+int number_of(const Plan& plan, const PlannedJob& planned) {
+  return static_cast<int>(&planned - plan.jobs.data());
+}
+
+const PlannedJob& job_of(const Plan& plan, const Task& task) {
+  return plan.jobs.at(static_cast<std::size_t>(task.job));
 }
 
 }  // namespace gramloom

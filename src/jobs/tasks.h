@@ -16,7 +16,7 @@ inline constexpr auto enum_names<TaskKind> = std::to_array<std::string_view>({"t
 
 struct Task {
   TaskKind kind = TaskKind::texture;
-  int job = 0;         // its number in the plan; of a diversity, of the first of its jobs
+  int job = 0;         // its number in the plan; of a diversity, of one of its jobs
   bool waits = false;  // for a process that has the job, which may finish it or die
 
   static constexpr auto fields() {
@@ -54,8 +54,11 @@ TaskResult do_task(Run& run, const Task& task);
 
 /// The jobs of each exemplar and method, as they follow each other in the plan.
 std::vector<JobGroup> groups_of(const Plan& plan);
-/// The jobs of that group from this one on, and all of it.
-JobGroup group_of(const Plan& plan, std::size_t job);
-JobGroup group_around(const Plan& plan, std::size_t job);
+/// That of the job of this number.
+JobGroup group_of(const Plan& plan, int job);
+
+/// A job's number in its plan, and the job of a task.
+int number_of(const Plan& plan, const PlannedJob& planned);
+const PlannedJob& job_of(const Plan& plan, const Task& task);
 
 }  // namespace gramloom

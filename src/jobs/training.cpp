@@ -183,4 +183,12 @@ Trained train_models(const Config& config, const RunOptions& options, ProgressBa
   return trained;
 }
 
+std::optional<Config> textures_of_trained(Config config, const Trained& trained,
+                                          const std::string& only) {
+  config.models.clear();
+  config.methods.insert(config.methods.end(), trained.methods.begin(), trained.methods.end());
+  const bool nothing = only.empty() ? config.methods.empty() : trained.methods.empty();
+  return nothing ? std::nullopt : std::optional(std::move(config));
+}
+
 }  // namespace gramloom

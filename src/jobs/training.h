@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,5 +48,10 @@ struct Trained {
 /// `output` cannot be written, or when a file in it that would be replaced is no run's, and for a
 /// sequence of poses outside what would be learnt.
 Trained train_models(const Config& config, const RunOptions& options, ProgressBar& bar);
+
+/// The run that follows, as any: of the textures of what was trained, with those of the config's
+/// methods beside them. None when there is nothing to make.
+std::optional<Config> textures_of_trained(Config config, const Trained& trained,
+                                          const std::string& only);
 
 }  // namespace gramloom

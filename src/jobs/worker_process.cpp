@@ -9,10 +9,10 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <thread>
 #include <utility>
 
 #include "core/error.h"
+#include "core/polling.h"
 #include "jobs/settings.h"
 
 namespace gramloom {
@@ -20,7 +20,6 @@ namespace gramloom {
 namespace {
 
 constexpr std::chrono::seconds patience{3};
-constexpr std::chrono::milliseconds pause{2};
 
 std::array<int, 2> make_pipe() {
   std::array<int, 2> ends{};
@@ -117,9 +116,7 @@ std::string WorkerProcess::how_it_ended() {
   close_end(tasks_);  // it ends when there is no more to read
   for (const int signal : {0, SIGTERM, SIGKILL}) {
     if (signal != 0 && !has_ended()) kill(process_, signal);
-    const auto end = std::chrono::steady_clock::now() + patience;
-    while (!has_ended() && std::chrono::steady_clock::now() < end)
-      std::this_thread::sleep_for(pause);
+    if (comes_true(patience, [&] { return has_ended(); })) break;
   }
   if (WIFSIGNALED(status_)) return fmt::format("was killed by signal {}", WTERMSIG(status_));
   return fmt::format("ended with code {}", WEXITSTATUS(status_));

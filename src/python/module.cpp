@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/threads.h"
 #include "io/field_values.h"
 #include "io/image_file.h"
 #include "jobs/key_lists.h"
@@ -15,6 +14,7 @@
 #include "python/runs.h"
 #include "python/synthesise.h"
 #include "python/watched_work.h"
+#include "signal/opencv_threads.h"
 
 namespace gramloom::python {
 
@@ -24,7 +24,7 @@ using Arrays = std::map<std::string, py::object>;
 
 void use_threads(int threads) {
   try {
-    set_thread_count(threads);
+    gramloom::use_threads(threads);
   } catch (const Error& error) {
     throw ConfigError("{}", error.what());
   }

@@ -20,13 +20,10 @@ namespace fs = std::filesystem;
 
 RunOptions options_of(const RunWork& work, const Config& config, const std::string& command,
                       Watch& watch) {
-  RunOptions options;
-  options.is_default_output = work.output.empty();
-  options.output = work.output.empty() ? default_output(config) : fs::path(work.output);
+  RunOptions options =
+      run_options(config, work.output, work.resume, {"gramloom." + command, work.config.string()});
   options.only = work.only;
-  options.resume = work.resume;
   options.stop = [&watch] { return watch.stopped(); };
-  options.command = {"gramloom." + command, work.config.string()};
   return options;
 }
 
@@ -79,7 +76,7 @@ RunDone run(const RunWork& work, Watch& watch) {
 }
 
 RunDone train(const RunWork& work, Watch& watch) {
-  Config config = read_config(work.config, work.set);
+  const Config config = read_config(work.config, work.set);
   if (config.models.empty())
     throw ConfigError("{}: there is no [[model]] to train", config.file.string());
   const RunOptions options = options_of(work, config, "train", watch);
@@ -88,10 +85,8 @@ RunDone train(const RunWork& work, Watch& watch) {
   report_to(watch, bar);
   const Trained trained = train_models(config, options, bar);
   if (trained.interrupted) throw Interrupted();
-  config.models.clear();
-  config.methods.insert(config.methods.end(), trained.methods.begin(), trained.methods.end());
-  if (!config.methods.empty())
-    do_jobs(config, options, bar, done);
+  if (const auto textures = textures_of_trained(config, trained, options.only))
+    do_jobs(*textures, options, bar, done);
   else if (trained.failed > 0)
     throw Error("{}", fmt::join(done.complaints, "\n"));
   return done;

@@ -92,9 +92,7 @@ void check_possible(const Config& config, const Request& request,
 }
 
 Stored stored_as(Image image, const OutputFormat& format) {
-  if (format.low != 0 || format.high != 1)
-    for (float& value : image.pixels) value = (value - format.low) / (format.high - format.low);
-  return stored(image, format.encoding.pixel_type);
+  return stored(scaled(std::move(image), format), format.encoding.pixel_type);
 }
 
 }  // namespace

@@ -30,11 +30,15 @@ std::string page_html(const Json& data) {
 }
 
 std::filesystem::path write_page(const std::filesystem::path& folder) {
-  const std::filesystem::path page = folder / "index.html";
+  return write_page(read_run(folder));
+}
+
+std::filesystem::path write_page(const RunOnDisk& run) {
+  const std::filesystem::path page = run.folder / "index.html";
   try {
-    write_text(page, page_html(page_data(read_run(folder))) + "\n");
+    write_text(page, page_html(page_data(run)) + "\n");
   } catch (const Json::exception& error) {
-    throw Error("{}: holds what no run writes: {}", folder.string(), message_of(error));
+    throw Error("{}: holds what no run writes: {}", run.folder.string(), message_of(error));
   }
   return page;
 }

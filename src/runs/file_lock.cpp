@@ -9,10 +9,10 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <thread>
 #include <utility>
 
 #include "core/error.h"
+#include "core/polling.h"
 #include "io/text_file.h"
 
 namespace gramloom {
@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds patience{60};
-constexpr std::chrono::milliseconds pause{20};
+
 constexpr std::string_view mark = "held by gramloom, ";
 
 std::string text_of_lock() {
@@ -94,12 +94,7 @@ FileLock::~FileLock() {
 
 bool FileLock::share() {
   // The system gives the exclusive lock up first: another may have it for a moment.
-  const auto end = std::chrono::steady_clock::now() + patience;
-  while (!lock(descriptor_, LOCK_SH, path_)) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(pause);
-  }
-  return true;
+  return comes_true(patience, [&] { return lock(descriptor_, LOCK_SH, path_); });
 }
 
 void remove_stale_lock(const fs::path& path) {

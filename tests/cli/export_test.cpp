@@ -112,14 +112,7 @@ TEST_F(ExportCommand, RefusesInOneLine) {
       {{"out/m", "--target", "gltf", "--only", "none", "--output", "x"}, "no job matches"},
       {{"out/m", "--target", "gltf", "--output", "out/m"}, "is the run's own folder"},
       {{"lost", "--target", "gltf", "--output", "x"}, "none of 2 jobs is finished"}};
-  for (const auto& [arguments, message] : cases) {
-    std::vector<std::string> words{"export"};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    const Outcome outcome = run(words);
-    EXPECT_EQ(outcome.exit_code, 2) << message;
-    EXPECT_THAT(outcome.errors, HasSubstr(message));
-    EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
-  }
+  for (const auto& [arguments, message] : cases) expect_refused("export", arguments, message);
   EXPECT_FALSE(fs::exists(folder_ / "x"));
 }
 
@@ -218,14 +211,8 @@ TEST_F(ExportOfModels, RefusesInOneLine) {
       {{"mix.safetensors", "--target", "c", "--weights", "-1,2", "--output", "x"}, 2, "weights"},
       {{"one.safetensors", "--target", "c", "--output", "one.safetensors"}, 2, "the model itself"},
       {{"one.safetensors", "--target", "c", "--output", "no/x"}, 1, "no/x"}};
-  for (const auto& [arguments, code, message] : cases) {
-    std::vector<std::string> words{"export"};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    const Outcome outcome = run(words);
-    EXPECT_EQ(outcome.exit_code, code) << message << outcome.errors;
-    EXPECT_THAT(outcome.errors, HasSubstr(message));
-    EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
-  }
+  for (const auto& [arguments, code, message] : cases)
+    expect_refused("export", arguments, message, code);
   EXPECT_FALSE(fs::exists(folder_ / "x"));
   EXPECT_EQ(run({"export", "one.safetensors", "--target", "c", "--output", "y.c"}).exit_code, 0)
       << "the model is as it was";

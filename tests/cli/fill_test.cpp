@@ -115,14 +115,7 @@ TEST_F(FillCommand, MistakesAreOneLineAndExitCode2) {
       {{"e.png", "--mask", "hole.png", "--output", "none/a.png"}, "there is no folder"},
       {{"e.png", "--mask", "nothing.png", "--output", "a.png"}, "nothing.png"},
   };
-  for (const auto& [arguments, message] : cases) {
-    std::vector<std::string> words{"fill"};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    const Outcome outcome = run(words);
-    EXPECT_EQ(outcome.exit_code, 2) << message;
-    EXPECT_THAT(outcome.errors, HasSubstr(message));
-    EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
-  }
+  for (const auto& [arguments, message] : cases) expect_refused("fill", arguments, message);
   EXPECT_FALSE(fs::exists(folder_ / "a.png"));
 }
 

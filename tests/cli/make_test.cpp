@@ -108,14 +108,7 @@ TEST_F(MakeCommand, MistakesAreOneLineAndExitCode2) {
       {{"e.png", "--output", "a.png", "--map", "height=none.png"}, "none.png"},
       {{"e.png", "e.png", "--output", "a.png", "--map", "height=e.png"}, "of one exemplar"},
   };
-  for (const auto& [arguments, message] : cases) {
-    std::vector<std::string> words{"make"};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    const Outcome outcome = run(words);
-    EXPECT_EQ(outcome.exit_code, 2) << message;
-    EXPECT_THAT(outcome.errors, HasSubstr(message));
-    EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
-  }
+  for (const auto& [arguments, message] : cases) expect_refused("make", arguments, message);
   EXPECT_FALSE(fs::exists(folder_ / "a.png"));
 }
 

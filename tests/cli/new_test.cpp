@@ -80,14 +80,7 @@ TEST_F(NewCommand, MistakesAreOneLineAndExitCode2AndNothingIsReplaced) {
       {{"n.toml", "--from", "empty"}, "no picture"},
       {{"n.toml", "--from", "c.toml"}, "c.toml"},
   };
-  for (const auto& [arguments, message] : cases) {
-    std::vector<std::string> words{"new"};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    const Outcome outcome = run(words);
-    EXPECT_EQ(outcome.exit_code, 2) << message;
-    EXPECT_THAT(outcome.errors, HasSubstr(message));
-    EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
-  }
+  for (const auto& [arguments, message] : cases) expect_refused("new", arguments, message);
   EXPECT_EQ(file("c.toml"), before);
   EXPECT_FALSE(fs::exists(folder_ / "n.toml"));
 }

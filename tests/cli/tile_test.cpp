@@ -81,14 +81,7 @@ TEST_F(TileCommand, MistakesAreOneLineAndExitCode2) {
       {{"e.png", "--size", "64", "--period", "3", "--output", "a.png"}, "period has 1 numbers"},
       {{"e.png", "--size", "70000x8", "--output", "a.jpg"}, "a side has at most 65500"},
       {{"e.png", "--output", "a.png"}, "--size is required"}};
-  for (const auto& [arguments, message] : cases) {
-    std::vector<std::string> words{"tile"};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    const Outcome outcome = run(words);
-    EXPECT_EQ(outcome.exit_code, 2) << message;
-    EXPECT_THAT(outcome.errors, HasSubstr(message));
-    EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
-  }
+  for (const auto& [arguments, message] : cases) expect_refused("tile", arguments, message);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a.png"));
 }
 

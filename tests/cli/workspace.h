@@ -1,6 +1,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -15,6 +16,11 @@
 #include "runs/record.h"
 
 namespace gramloom {
+
+/// Exactly one line.
+inline bool is_one_line(const std::string& text) {
+  return !text.empty() && text.find('\n') == text.size() - 1;
+}
 
 /// A test with an empty folder to run the executable in: "e.png" is an exemplar, "c.toml" a config
 /// of four short jobs.
@@ -39,6 +45,17 @@ class Workspace : public testing::Test {
 
   Outcome run(std::vector<std::string> arguments) const { return gramloom(folder_, arguments); }
 
+  // The command ends with this exit code and one line that holds the message.
+  void expect_refused(const std::string& command, const std::vector<std::string>& arguments,
+                      const std::string& message, int exit_code = 2) const {
+    std::vector<std::string> words{command};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.exit_code, exit_code) << message << outcome.errors;
+    EXPECT_THAT(outcome.errors, testing::HasSubstr(message));
+    EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
+  }
+
   std::optional<JobRecord> record(const std::string& job, const std::string& out = "out/c") const {
     return find_record(folder_ / out / (job + ".json"));
   }
@@ -46,10 +63,5 @@ class Workspace : public testing::Test {
 
   const std::filesystem::path folder_;
 };
-
-/// Exactly one line.
-inline bool is_one_line(const std::string& text) {
-  return !text.empty() && text.find('\n') == text.size() - 1;
-}
 
 }  // namespace gramloom

@@ -33,7 +33,7 @@ const std::map<std::string, std::set<std::string>> may_include{
     {"jobs",
      {"core", "signal", "io", "procedural", "classic", "neural", "learnt", "train", "surface",
       "metrics", "runs"}},
-    {"python", {"core", "io", "metrics", "runs", "jobs", "report"}},
+    {"python", {"core", "signal", "io", "metrics", "runs", "jobs", "report"}},
     {"commands", {"core", "signal", "io", "learnt", "surface", "runs", "jobs", "report"}},
 };
 
