@@ -98,7 +98,7 @@ Cost estimate(const HistogramParams&, const RequestSize& request) {
   }
   const double out = static_cast<double>(request.size.width) * request.size.height * channels;
   const double sources = static_cast<double>(request.size.width) * request.size.height;
-  return {4 * (in + usable + out) + sizeof(Source) * sources, 5e-9 * out};
+  return {4 * (in + usable + out) + sizeof(Source) * sources, {.shared = 5e-9 * out}};
 }
 
 }  // namespace gramloom

@@ -180,7 +180,7 @@ Cost estimate(const PatchmatchParams& params, const RequestSize& request) {
   // A field, its canvas and a coarser field; or, at the end, origins, sources and their picture.
   const double bytes_per_pixel = std::max(32.0, 12 + 4.0 * channels);
   return {.bytes = pixels * bytes_per_pixel + samples * (48 + 4.0 * channels) + counts * 4,
-          .seconds = pixels * iterations * (45 + 15.0 * params.tries) * 1e-9};
+          .work = {.shared = pixels * iterations * (45 + 15.0 * params.tries) * 1e-9}};
 }
 
 }  // namespace gramloom

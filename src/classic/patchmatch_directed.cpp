@@ -286,8 +286,8 @@ Cost estimate_directed(const PatchmatchParams& params, const RequestSize& reques
   return {.bytes = target * (request.known ? 16 + 8 * channels : 12 + 4 * channels) +
                    made * (64 + 24.0 * planes) +
                    samples * (52 + 24.0 * planes + (copied ? 8 : 4) * channels),
-          .seconds = made * iterations * (45 + 15 * tries) * 1e-9 * (work + 0.5 * planes) +
-                     (samples + target) * 1.1e-7};
+          .work = {.serial = (samples + target) * 1.1e-7,
+                   .shared = made * iterations * (45 + 15 * tries) * 1e-9 * (work + 0.5 * planes)}};
 }
 
 }  // namespace gramloom

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "classic/patchmatch.h"
+#include "core/cost.h"
 
 namespace gramloom {
 

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "core/abilities.h"
+#include "core/cost.h"
 #include "core/fields.h"
 #include "core/progress.h"
 #include "core/request.h"

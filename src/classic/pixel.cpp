@@ -95,11 +95,11 @@ Cost estimate(const PixelParams& params, const RequestSize& request) {
   const double made = to * request.made;
   const double trials = params.algorithm == PixelAlgorithm::lefebvre_hoppe ? params.passes : 1;
   if (params.search == PixelSearch::exact)
-    cost.seconds = trials * made * from * window * compared / 1e10;
+    cost.work.shared = trials * made * from * window * compared / 1e10;
   else if (params.algorithm == PixelAlgorithm::lefebvre_hoppe)
-    cost.seconds = 1e-6 * candidates * from + 1.3e-7 * trials * candidates * made;
+    cost.work.shared = 1e-6 * candidates * from + 1.3e-7 * trials * candidates * made;
   else
-    cost.seconds = 1e-6 * candidates * from + 6e-8 * window * candidates * made;
+    cost.work.shared = 1e-6 * candidates * from + 6e-8 * window * candidates * made;
   return cost;
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 std::size_t to_size(int value) { return static_cast<std::size_t>(value); }
 
-struct Work {
+struct QuiltWork {
   const QuiltRules& rules;
   const QuiltMaterial& material;
   const PatchAxis& x;
@@ -50,7 +50,7 @@ PatchOrigin anywhere(Size positions, Random& random) {
 }
 
 /// errors += scale · what each exemplar's places cost.
-void add_quota(const Work& work, float scale, std::vector<float>& errors) {
+void add_quota(const QuiltWork& work, float scale, std::vector<float>& errors) {
   if (work.quota.empty()) return;
   const std::vector<float> costs = work.quota.costs();
   const int width = work.overlap_errors.positions().width;
@@ -62,7 +62,7 @@ void add_quota(const Work& work, float scale, std::vector<float>& errors) {
 }
 
 /// The errors of all positions, and up to which of them patches are drawn.
-float find_errors(Work& work, const Image& old, PatchOrigin place, const Sides& sides,
+float find_errors(QuiltWork& work, const Image& old, PatchOrigin place, const Sides& sides,
                   std::vector<float>& errors) {
   const Size patch = work.patch();
   const auto tolerance = static_cast<float>(work.rules.tolerance);
@@ -84,7 +84,7 @@ float find_errors(Work& work, const Image& old, PatchOrigin place, const Sides& 
 }
 
 /// The one with the best cut of several patches whose errors are nearly the least.
-Candidate choose(Work& work, const Image& old, PatchOrigin place, const Sides& sides,
+Candidate choose(QuiltWork& work, const Image& old, PatchOrigin place, const Sides& sides,
                  Random& random) {
   const Size positions = work.overlap_errors.positions();
   const Size patch = work.patch();
@@ -110,7 +110,7 @@ Candidate choose(Work& work, const Image& old, PatchOrigin place, const Sides& s
 }
 
 /// Lays a patch and returns where it comes from.
-Choice lay(Work& work, const PatchSlot& slot, Random random) {
+Choice lay(QuiltWork& work, const PatchSlot& slot, Random random) {
   const int left = work.x.starts[to_size(slot.column)];
   const int top = work.y.starts[to_size(slot.row)];
   const Size patch = work.patch();
@@ -128,16 +128,16 @@ Quilt lay_quilt(const QuiltMaterial& material, const PatchAxis& x, const PatchAx
                 const QuiltRules& rules, Random random, const QuiltReport& report) {
   OverlapErrors overlap_errors(material.exemplar, {x.patch, y.patch});
   PatchReuse reuse(overlap_errors.positions(), {x.patch, y.patch});
-  Work work{rules,
-            material,
-            x,
-            y,
-            std::move(overlap_errors),
-            std::move(reuse),
-            material.quota,
-            Image(x.length, y.length, material.exemplar.channels),
-            SourceMap({x.length, y.length}),
-            {}};
+  QuiltWork work{rules,
+                 material,
+                 x,
+                 y,
+                 std::move(overlap_errors),
+                 std::move(reuse),
+                 material.quota,
+                 Image(x.length, y.length, material.exemplar.channels),
+                 SourceMap({x.length, y.length}),
+                 {}};
   double error = 0;
   std::int64_t laid = 0;
   for (const std::vector<PatchSlot>& wave : waves(x, y)) {

@@ -135,15 +135,16 @@ Cost estimate(const QuiltingParams& params, const RequestSize& request) {
   const double guide = params.guidance > 0 ? attempts / 16.0 : 0;  // in quilts
   Cost cost{.bytes = 4 * channels * (5 * pixels + result + guide * result) +
                      sizeof(Source) * result + (8 + 4.0 * thread_count()) * pixels,
-            .seconds = patches *
-                       (pixels * (8 + 0.25 * overlap * channels) * (1 + guide / 4) + cuts) * 1e-9};
+            .work = {.shared = patches *
+                               (pixels * (8 + 0.25 * overlap * channels) * (1 + guide / 4) + cuts) *
+                               1e-9}};
   // Two-dimensional transforms: spectra, and for each patch their products and a transform back.
   if (guided || request.known) {
     const double planes = (request.known ? channels + 1 : 0) + (guided ? 4 : 0);
     const double laid = patches * std::min(1.0, 2 * request.made);
     cost.bytes += 8 * planes * pixels + 16 * result;
-    cost.seconds = (request.known ? 0 : cost.seconds) +
-                   laid * (pixels * (20 + 4 * planes) + 40 * cuts) * (1 + guide / 4) * 1e-9;
+    cost.work.shared = (request.known ? 0 : cost.work.shared) +
+                       laid * (pixels * (20 + 4 * planes) + 40 * cuts) * (1 + guide / 4) * 1e-9;
   }
   return cost;
 }

@@ -4,6 +4,7 @@
 #include "commands/command.h"
 #include "commands/config_options.h"
 #include "core/error.h"
+#include "io/json_fields.h"
 #include "jobs/config.h"
 #include "jobs/input_files.h"
 #include "jobs/listing.h"
@@ -24,21 +25,25 @@ std::string output_refusal(const Config& config, const Plan& plan) {
     check_output(config, plan, output, input_files(config));
     return "";
   } catch (const Error& error) {
-    return fmt::format("cannot run: --output {}: {}\n", output.string(), error.what());
+    return fmt::format("cannot run: --output {}: {}", output.string(), error.what());
   }
 }
 
-ExitCode check_config(const ConfigOptions& options) {
+ExitCode check_config(const ConfigOptions& options, bool as_json) {
   const Config config = read_config(options.config, options.set);
-  std::string text;
-  if (!config.models.empty()) text = lesson_table(config, options.only);
+  const std::vector<Expectation> lessons = expected_lessons(config, options.only);
   const Plan plan = make_plan(config, options.only);
-  if (has_selected(plan))
-    text += job_table(config, plan);
-  else if (text.empty())
+  if (!has_selected(plan) && lessons.empty())
     throw ConfigError("--only {}: no model and no job of {} matches", options.only,
                       config.file.string());
-  return print(text + output_refusal(config, plan));
+  const std::string refusal = output_refusal(config, plan);
+  if (!as_json)
+    return print(lesson_table(lessons) + (has_selected(plan) ? job_table(config, plan) : "") +
+                 (refusal.empty() ? "" : refusal + "\n"));
+  Json json = jobs_json(config, plan);
+  json["models"] = to_json_value(lessons);
+  json["problem"] = refusal;
+  return print(to_text(json, 2) + "\n");
 }
 
 }  // namespace
@@ -47,8 +52,10 @@ Command add_check(CLI::App& program) {
   const auto options = std::make_shared<ConfigOptions>();
   CLI::App* check = program.add_subcommand(
       "check", "Validate a config and list its jobs with estimated memory and time");
+  const auto as_json = std::make_shared<bool>(false);
   add_config_options(*check, *options);
-  return {check, [options] { return check_config(*options); }};
+  check->add_flag("--json", *as_json, "for programs: bytes and seconds");
+  return {check, [options, as_json] { return check_config(*options, *as_json); }};
 }
 
 }  // namespace gramloom

@@ -50,10 +50,4 @@ struct Control {
   }
 };
 
-/// What a method expects to need, for `check` and for refusing a job that does not fit.
-struct Cost {
-  double bytes = 0;    // peak memory of the process beyond its start
-  double seconds = 0;  // on a machine of two current cores
-};
-
 }  // namespace gramloom

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/cost.h"
 #include "jobs/lesson_run.h"
 
 namespace gramloom {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include "core/cost.h"
 #include "core/progress.h"
 #include "jobs/inputs.h"
 #include "jobs/protected_files.h"

@@ -4,7 +4,9 @@
 
 #include "core/variants.h"
 #include "io/models_folder.h"
+#include "jobs/expectation.h"
 #include "jobs/key_lists.h"
+#include "jobs/machine_speed.h"
 #include "jobs/memory.h"
 #include "jobs/progress_bar.h"
 #include "jobs/text_table.h"
@@ -86,7 +88,35 @@ std::string problem_of(const PlannedDiversity& planned, double available) {
   return refusal.empty() ? "" : "cannot be compared: " + refusal;
 }
 
-std::string memory_text(double bytes) { return fmt::format("{:.2f} GB", bytes / 1e9); }
+struct Expectations {
+  std::vector<Expectation> jobs, diversities;
+};
+
+bool multiplies_matrices(const Plan& plan) {
+  return std::ranges::any_of(plan.jobs, [](const PlannedJob& planned) {
+    return planned.selected && planned.cost.work.operations > 0;
+  });
+}
+
+Expectations expectations_of(const Config& config, const Plan& plan) {
+  const double available = available_memory();
+  const Speed speed = machine_speed(multiplies_matrices(plan));
+  Expectations expected;
+  for (const PlannedJob& planned : plan.jobs) {
+    if (!planned.selected) continue;
+    expected.jobs.push_back(
+        {planned.name,
+         program_memory(config.methods[planned.job.method].method) +
+             std::max({planned.cost.bytes, planned.finishing.bytes, planned.scoring.bytes}),
+         seconds(planned.cost.work + planned.finishing.work + planned.scoring.work, speed),
+         problem_of(config, plan, planned, available)});
+  }
+  for (const PlannedDiversity& diversity : plan.diversities)
+    expected.diversities.push_back(
+        {diversity.name, program_memory(QuiltingParams()) + diversity.cost.bytes,
+         seconds(diversity.cost.work, speed), problem_of(diversity, available)});
+  return expected;
+}
 
 }  // namespace
 
@@ -196,30 +226,38 @@ Json metrics_json() {
 }
 
 std::string job_table(const Config& config, const Plan& plan) {
-  const double available = available_memory();
+  const Expectations expected = expectations_of(config, plan);
   std::vector<Row> rows{{"job", "memory", "time", ""}};
-  double seconds = 0;
-  std::size_t count = 0;
-  for (const auto& planned : plan.jobs) {
-    if (!planned.selected) continue;
-    ++count;
-    const double job_seconds =
-        planned.cost.seconds + planned.finishing.seconds + planned.scoring.seconds;
-    const double bytes =
-        program_memory(config.methods[planned.job.method].method) +
-        std::max({planned.cost.bytes, planned.finishing.bytes, planned.scoring.bytes});
-    seconds += job_seconds;
-    rows.push_back({planned.name, memory_text(bytes), clock_text(job_seconds),
-                    problem_of(config, plan, planned, available)});
-  }
-  for (const auto& diversity : plan.diversities) {
-    seconds += diversity.cost.seconds;
-    rows.push_back({diversity.name + " diversity",
-                    memory_text(program_memory(QuiltingParams()) + diversity.cost.bytes),
-                    clock_text(diversity.cost.seconds), problem_of(diversity, available)});
-  }
+  double sum = 0;
+  const auto add = [&](const std::vector<Expectation>& list, const std::string& what) {
+    for (const Expectation& one : list) {
+      sum += one.seconds;
+      rows.push_back(
+          {one.name + what, memory_text(one.memory), clock_text(one.seconds), one.problem});
+    }
+  };
+  add(expected.jobs, "");
+  add(expected.diversities, " diversity");
+  const std::size_t count = expected.jobs.size();
   return text_table(rows, "") +
-         fmt::format("{} {}, about {}\n", count, count == 1 ? "job" : "jobs", clock_text(seconds));
+         fmt::format("{} {}, about {}\n", count, count == 1 ? "job" : "jobs", clock_text(sum));
+}
+
+std::string lesson_table(const std::vector<Expectation>& lessons) {
+  if (lessons.empty()) return "";
+  std::vector<Row> rows{{"model to train", "memory", "time", ""}};
+  for (const Expectation& lesson : lessons) {
+    const bool known = lesson.memory > 0;
+    rows.push_back({lesson.name, known ? memory_text(lesson.memory) : "",
+                    known ? clock_text(lesson.seconds) : "", lesson.problem});
+  }
+  return text_table(rows, "") + "\n";
+}
+
+Json jobs_json(const Config& config, const Plan& plan) {
+  const Expectations expected = expectations_of(config, plan);
+  return {{"jobs", to_json_value(expected.jobs)},
+          {"diversities", to_json_value(expected.diversities)}};
 }
 
 std::string list_maps() { return text_of(map_lists()); }

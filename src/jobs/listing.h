@@ -5,6 +5,7 @@
 
 #include "io/json_text.h"
 #include "jobs/config.h"
+#include "jobs/expectation.h"
 #include "jobs/plan.h"
 
 namespace gramloom {
@@ -33,6 +34,10 @@ Json metrics_json();
 
 /// The selected jobs with their estimated memory and time, and what keeps one from running.
 std::string job_table(const Config& config, const Plan& plan);
+/// The models to train, likewise.
+std::string lesson_table(const std::vector<Expectation>& lessons);
+/// The same for programs, in bytes and seconds.
+Json jobs_json(const Config& config, const Plan& plan);
 
 /// What is made of a height map or a photograph, with its parameters.
 std::string list_maps();

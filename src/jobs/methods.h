@@ -13,6 +13,7 @@
 #include "classic/pyramid.h"
 #include "classic/quilting.h"
 #include "core/abilities.h"
+#include "core/cost.h"
 #include "core/fields.h"
 #include "core/progress.h"
 #include "core/request.h"

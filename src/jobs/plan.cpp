@@ -86,16 +86,34 @@ RequestSize request_size(const Config& config, const Plan& plan, const Job& job,
   return request;
 }
 
-// Of what a job makes of its texture: the maps of its height, its preview.
-Cost cost_of_finishing(const Config& config, const Job& job) {
-  Cost cost;
+// The first one's memory stays.
+Cost one_after_the_other(const Cost& first, const Cost& second) {
+  return {first.bytes + second.bytes, first.work + second.work};
+}
+
+// Of reading a job's exemplars and writing its texture; all with their maps. Measured with PNG.
+Cost cost_of_files(const Config& config, const ExemplarFacts& facts) {
+  double in = 0;
+  for (const ExemplarSize& exemplar : facts.request.exemplars)
+    in += 1.0 * exemplar.size.width * exemplar.size.height * exemplar.channels;
+  constexpr int of_formulas = 4;  // colour and height
+  const int channels =
+      facts.request.exemplars.empty() ? of_formulas : facts.request.exemplars.front().channels;
+  const double pixels = 1.0 * config.size.width * config.size.height;
+  return {std::max(18 * in, (13 * channels + 2) * pixels),
+          {.serial = 1.2e-7 * in + 7.5e-8 * pixels * channels}};
+}
+
+// Of what a job makes of its texture: the file, the maps of its height, its preview.
+Cost cost_of_finishing(const Config& config, const ExemplarFacts& facts, const Job& job) {
+  Cost cost = cost_of_files(config, facts);
   const bool has_height =
       !job.exemplar || !height_among(config.exemplars[*job.exemplar].maps, config.surface).empty();
   if (has_height && !maps_asked(config.surface).empty())
-    cost = estimate_maps(config.surface, config.size);
-  if (!config.preview) return cost;
-  const Cost preview = estimate_preview(*config.preview, config.size);
-  return {cost.bytes + preview.bytes, cost.seconds + preview.seconds};
+    cost = one_after_the_other(cost, estimate_maps(config.surface, config.size));
+  if (config.preview)
+    cost = one_after_the_other(cost, estimate_preview(*config.preview, config.size));
+  return cost;
 }
 
 // Of a filled picture only the joins are scored.
@@ -104,11 +122,11 @@ Cost cost_of_scoring(const Config& config, const ExemplarFacts& facts) {
   if (config.direction.fill) {
     const double values =
         1.0 * config.size.width * config.size.height * (facts.files.front().channels + 1);
-    return {1e7 + 8 * values, 0.1 + 1e-7 * values};
+    return {1e7 + 8 * values, {.serial = 0.1 + 1e-7 * values}};
   }
   for (const ExemplarSize& exemplar : facts.request.exemplars) {
     const Cost one = estimate_scores(exemplar.size, facts.files.front().channels, config.size);
-    cost = {std::max(cost.bytes, one.bytes), cost.seconds + one.seconds};
+    cost = {std::max(cost.bytes, one.bytes), cost.work + one.work};
   }
   return cost;
 }
@@ -123,7 +141,7 @@ void estimate_job(const Config& config, const Plan& plan, PlannedJob& planned) {
     check_formats(config, facts);
     planned.cost =
         estimate_method(method.method, request_size(config, plan, planned.job, config.size));
-    planned.finishing = cost_of_finishing(config, planned.job);
+    planned.finishing = cost_of_finishing(config, facts, planned.job);
     if (config.scores && planned.job.exemplar) planned.scoring = cost_of_scoring(config, facts);
   } catch (const ConfigError& error) {
     throw ConfigError("{}: method '{}': {}", method.place, method.name, error.what());
@@ -264,7 +282,7 @@ std::string diversity_refusal(const Cost& cost, double available) {
 std::string memory_refusal(const Config& config, const Plan& plan, const PlannedJob& planned,
                            double available) {
   if (planned.cost.bytes <= available)
-    return refusal_of("making its maps and preview", planned.finishing, available);
+    return refusal_of("writing it, its maps and preview", planned.finishing, available);
   const auto scaled = [&](double scale) {
     return Size{std::max(1, static_cast<int>(config.size.width * scale)),
                 std::max(1, static_cast<int>(config.size.height * scale))};

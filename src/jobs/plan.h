@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/cost.h"
 #include "core/progress.h"
 #include "jobs/config.h"
 #include "jobs/exemplar.h"

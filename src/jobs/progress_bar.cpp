@@ -59,6 +59,8 @@ std::string clock_text(double seconds) {
   return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
+std::string memory_text(double bytes) { return fmt::format("{:.2f} GB", bytes / 1e9); }
+
 void ProgressBar::start(const std::string& job, std::size_t number, std::size_t count) {
   job_ = count > 1 ? fmt::format("{} ({}/{})", job, number, count) : job;
   started_ = Clock::now();

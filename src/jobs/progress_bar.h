@@ -20,6 +20,8 @@ void print_message(const std::string& line);
 
 /// "0:07", "12:34", "1:02:03"
 std::string clock_text(double seconds);
+/// Decimal, of two places: "0.14 GB".
+std::string memory_text(double bytes);
 
 /// Shows how far the jobs are, on standard error.
 class ProgressBar {

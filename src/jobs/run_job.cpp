@@ -57,7 +57,7 @@ void refuse_if_impossible(const Run& run, const PlannedJob& planned) {
 }
 
 // A job under way: what it reads and where its results go.
-struct Work {
+struct JobWork {
   const PlannedJob& planned;
   const Method& method;
   const JobFiles& files;
@@ -73,13 +73,13 @@ struct Made {
 };
 
 // A method reads its files before its first report: what was hashed before is what it has read.
-void check_unchanged(Run& run, const Work& work) {
+void check_unchanged(Run& run, const JobWork& work) {
   if (method_hashes(work.method, run.hashes) != work.method_files)
     throw Error("a file of the method '{}' changed while it was read",
                 run.config.methods[work.planned.job.method].name);
 }
 
-Made make_texture(Run& run, const Work& work, TraceLog& trace) {
+Made make_texture(Run& run, const JobWork& work, TraceLog& trace) {
   Made made;
   bool checked = false;
   Control control;
@@ -100,7 +100,7 @@ Made make_texture(Run& run, const Work& work, TraceLog& trace) {
   return made;
 }
 
-void write_results(Run& run, const Work& work, Texture joined, const TraceLog& trace,
+void write_results(Run& run, const JobWork& work, Texture joined, const TraceLog& trace,
                    JobRecord& record) {
   const JobFiles& files = work.files;
   Texture texture = split_layers(std::move(joined), run.files);
@@ -132,7 +132,7 @@ void write_results(Run& run, const Work& work, Texture joined, const TraceLog& t
 }
 
 // Reads what the job needs, and says so in the record.
-Work begin_work(Run& run, const PlannedJob& planned, const JobFiles& files, JobRecord& record) {
+JobWork begin_work(Run& run, const PlannedJob& planned, const JobFiles& files, JobRecord& record) {
   const Job& job = planned.job;
   const Method& method = run.config.methods[job.method].method;
   const Request& request = request_of(run, job);
@@ -149,7 +149,7 @@ void do_job(Run& run, const PlannedJob& planned, const JobFiles& files, bool kee
             JobRecord& record) {
   refuse_if_impossible(run, planned);
   reset_peak_memory();
-  const Work work = begin_work(run, planned, files, record);
+  const JobWork work = begin_work(run, planned, files, record);
   TraceLog trace(files.checkpoint_trace, work.identity);
   if (!run.options.resume || !trace.continues() || !exists(files.checkpoint)) {
     trace.restart();

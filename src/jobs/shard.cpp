@@ -63,7 +63,7 @@ Shard shard_of_slurm() {
 }
 
 double seconds_of(const PlannedJob& job) {
-  return seconds_of_any_job + job.cost.seconds + job.finishing.seconds + job.scoring.seconds;
+  return seconds_of_any_job + seconds(job.cost.work + job.finishing.work + job.scoring.work);
 }
 
 void select_shard(Plan& plan, const Shard& shard) {

@@ -9,6 +9,7 @@
 #include "jobs/generator_lessons.h"
 #include "jobs/inference_lessons.h"
 #include "jobs/input_files.h"
+#include "jobs/machine_speed.h"
 #include "jobs/names.h"
 #include "jobs/output_guard.h"
 #include "jobs/pattern.h"
@@ -105,26 +106,23 @@ std::vector<Lesson> lessons_of(const Config& config, const std::string& only) {
   return lessons;
 }
 
-std::string lesson_table(const Config& config, const std::string& only) {
+std::vector<Expectation> expected_lessons(const Config& config, const std::string& only) {
   check_names(config, lessons_of(config));
-  const std::vector<Lesson> lessons = lessons_of(config, only);
-  if (lessons.empty()) return "";
-  std::vector<Row> rows{{"model to train", "memory", "time"}};
-  for (const Lesson& lesson : lessons) {
+  std::vector<Expectation> expected;
+  for (const Lesson& lesson : lessons_of(config, only)) {
     if (is_inference(config, lesson)) {
       check_frames(config.models[lesson.model]);
-      rows.push_back({lesson.name, "", ""});
+      expected.push_back({lesson.name, 0, 0, ""});
       continue;
     }
     try {
       const Cost cost = estimate_generator_lesson(config, lesson);
-      rows.push_back(
-          {lesson.name, fmt::format("{:.2f} GB", cost.bytes / 1e9), clock_text(cost.seconds)});
+      expected.push_back({lesson.name, cost.bytes, seconds(cost.work, machine_speed(true)), ""});
     } catch (const Error& error) {
-      rows.push_back({lesson.name, "cannot be trained: " + first_line(error.what()), ""});
+      expected.push_back({lesson.name, 0, 0, "cannot be trained: " + first_line(error.what())});
     }
   }
-  return text_table(rows, "") + "\n";
+  return expected;
 }
 
 Trained train_models(const Config& config, const RunOptions& options, ProgressBar& bar) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "jobs/config.h"
+#include "jobs/expectation.h"
 #include "jobs/progress_bar.h"
 #include "jobs/runner.h"
 
@@ -23,9 +24,10 @@ struct Lesson {
 /// inference has its own name.
 std::vector<Lesson> lessons_of(const Config& config, const std::string& only = "");
 
-/// The models that a config trains, of those that match `only`, with what each is expected to need,
-/// a line each. Throws Error for an exemplar that cannot be read.
-std::string lesson_table(const Config& config, const std::string& only);
+/// The models that a config trains, of those that match `only`, with what each is expected to need;
+/// 0 bytes and seconds for an inference, whose pairs nobody has read yet.
+/// Throws Error for an exemplar that cannot be read.
+std::vector<Expectation> expected_lessons(const Config& config, const std::string& only);
 
 /// How trainings went, and what became of them: of generators a method each for every exemplar it
 /// has learnt, to be run and scored against it.

@@ -129,7 +129,10 @@ Texture synthesise(const GeneratorParams& params, const Request& request, const 
 Cost estimate_rows(const GeneratorDescription& description, Size size) {
   const double pixels = 1.0 * size.width * size.height;
   const double strip = 4.0 * size.width * 256 * description.channels;
-  return {6e7 + strip, 0.1 + pixels * (multiplications_per_pixel(description) * 2.5e-11 + 3e-8)};
+  return {6e7 + strip,
+          {.serial = 0.1,
+           .shared = pixels * 5e-8,
+           .operations = 2 * pixels * multiplications_per_pixel(description)}};
 }
 
 Cost estimate(const GeneratorParams& params, const RequestSize& request) {

@@ -98,14 +98,15 @@ Cost estimate_scores(Size exemplar, int channels, Size image) {
   const double of_image = 1.0 * image.width * image.height;
   // The larger one's transforms take the most; measured from 256² to 2048².
   return {3e7 + 300 * std::max(of_exemplar, of_image) + 12.0 * channels * (of_exemplar + of_image),
-          0.1 + 3.5e-6 * (of_exemplar + of_image)};
+          {.serial = 0.1, .shared = 3.5e-6 * (of_exemplar + of_image)}};
 }
 
 Cost estimate_diversity(Size image, int channels, int seeds) {
   const double pixels = 1.0 * image.width * image.height;
   const double pairs = 0.5 * seeds * (seeds - 1);
   // All results and their components; and the transforms of a pair.
-  return {3e7 + pixels * (8.0 * channels * seeds + 150), 0.02 + pairs * 7e-7 * pixels};
+  return {3e7 + pixels * (8.0 * channels * seeds + 150),
+          {.serial = 0.02, .shared = pairs * 7e-7 * pixels}};
 }
 
 double diversity(std::span<const Image> seeds, const Control& control) {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/cost.h"
 #include "core/progress.h"
 #include "core/request.h"
 

@@ -7,6 +7,10 @@ namespace gramloom {
 /// milliseconds.
 double blas_gigaflops();
 
+/// Operations a second that large single-precision matrix products reach with all threads. Takes a
+/// third of a second.
+double operations_per_second();
+
 /// Below this the BLAS is the reference one, and syntheses take several times as long.
 inline constexpr double slow_blas_gigaflops = 15;
 

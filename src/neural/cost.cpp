@@ -12,11 +12,13 @@ namespace {
 
 using namespace neural;
 
-// Measured on two cores.
+// Measured; seconds of one thread.
 constexpr double start_seconds = 0.5;  // of the libraries
 constexpr double seconds_per_step = 5e-4;
-constexpr double evaluations_per_step = 1.1;        // of L-BFGS
-constexpr double seconds_per_pixel_of_fill = 5e-7;  // known or made, in a step of a layout
+constexpr double seconds_per_value = 1.5e-8;          // of Adam
+constexpr double seconds_per_remembered = 3e-10;      // value of L-BFGS
+constexpr double evaluations_per_step = 1.1;          // of L-BFGS
+constexpr double seconds_per_pixel_of_fill = 7.5e-7;  // known or made, in a step of a layout
 constexpr double pictures_of_fill = 12;
 constexpr double directed_patches = 2.5;  // seconds, where each has its own place and goal
 constexpr double optimiser_values = 9;    // in memory, for each of the picture's
@@ -40,38 +42,39 @@ LossSize loss_size(const NeuralParams& params, Size exemplar, Size canvas, int c
 
 // Of one evaluation of all terms: they take turns, but those that look at a network do so together.
 LossCost loss_cost(const NeuralParams& params, const LossSize& size) {
-  LossCost network{size.of_result.filters / matrix_operations_per_second,
+  LossCost network{{.operations = size.of_result.filters},
                    sizeof(float) * 3 * size.of_result.weights +
                        std::max(size.of_result.bytes(), size.of_exemplar.bytes_without_gradient())};
   LossCost pictures;
   for_each_term(params, [&]<class Term>(const Term& term) {
     const LossCost own = cost(term, size);
-    (LooksAtNetwork<Term> ? network : pictures).seconds += own.seconds;
+    (LooksAtNetwork<Term> ? network : pictures).work += own.work;
     if (LooksAtNetwork<Term>)
       network.bytes += own.bytes;
     else
       pictures.bytes = std::max(pictures.bytes, own.bytes);
   });
-  return {network.seconds + pictures.seconds, network.bytes + pictures.bytes};
+  return {network.work + pictures.work, network.bytes + pictures.bytes};
 }
 
-double seconds_of_step(const NeuralParams& params, double evaluation, double picture,
-                       Optimizer optimizer) {
-  const double seconds = seconds_per_step + evaluation;
-  if (optimizer == Optimizer::adam) return seconds + picture * 1e-8;
-  return evaluations_per_step * seconds + picture * (4 * params.history) * 2e-10;
+Work work_of_step(const NeuralParams& params, const Work& evaluation, double values,
+                  Optimizer optimizer) {
+  const Work work = Work{.serial = seconds_per_step} + evaluation;
+  if (optimizer == Optimizer::adam) return work + Work{.shared = values * seconds_per_value};
+  return evaluations_per_step * work +
+         Work{.shared = values * 4 * params.history * seconds_per_remembered};
 }
 
 // One step of the layout: every fourth patch against all references, and the prices' part of them.
-double seconds_of_flow(const NeuralParams& params, double pixels, double of_exemplar, bool fills) {
+Work work_of_flow(const NeuralParams& params, double pixels, double of_exemplar, bool fills) {
   constexpr double dimensions = 48, of_prices = 1.5;
   const auto patches = static_cast<std::int64_t>(of_exemplar);
   const double references =
       fills ? static_cast<double>(
                   std::min(patches, looked_at_for_a_fill(static_cast<std::int64_t>(pixels / 4))))
             : static_cast<double>(params.references(patches, pixels));
-  return of_prices * pixels / 4 * references * dimensions * 2 / matrix_operations_per_second +
-         pixels * 2e-7;
+  return {.shared = 3e-7 * pixels,
+          .operations = of_prices * pixels / 4 * references * dimensions * 2};
 }
 
 // All that the synthesis itself would refuse once it has begun.
@@ -111,7 +114,7 @@ Cost estimate(const NeuralParams& asked, const RequestSize& request) {
   LossSize compared = size;  // each patch with one of the exemplar's
   if (request.known || request.guide) compared.exemplar = size.result;
   LossCost loss = loss_cost(params, compared);
-  if (request.known || request.guide || request.weights) loss.seconds *= directed_patches;
+  if (request.known || request.guide || request.weights) loss.work = directed_patches * loss.work;
   const bool remembers = std::find(params.optimizer.begin(), params.optimizer.end(),
                                    Optimizer::lbfgs) != params.optimizer.end();
   // A checkpoint is put together in memory: all that the optimiser keeps is there once more.
@@ -126,20 +129,19 @@ Cost estimate(const NeuralParams& asked, const RequestSize& request) {
   cost.bytes += packed_bytes * thread_count();
   if (request.known)  // pictures and masks of the whole, most of which stays
     cost.bytes += sizeof(float) * pictures_of_fill * channels * canvas.width * canvas.height;
-  cost.seconds = start_seconds + size.of_exemplar.filters / 2 / matrix_operations_per_second;
+  cost.work = {.serial = start_seconds, .operations = size.of_exemplar.filters / 2};
   for (int level = 0; level < level_count(params, exemplar, target); ++level) {
     const bool flow = params.layout == Layout::flow;
     const double area = std::pow(flow ? 0.5 : params.level_factor, 2 * level);
     if (flow)
-      cost.seconds +=
-          at_level(params.flow_steps, level) *
-          seconds_of_flow(params, size.result * area, size.exemplar * area, request.known);
+      cost.work += at_level(params.flow_steps, level) *
+                   work_of_flow(params, size.result * area, size.exemplar * area, request.known);
     if (flow && request.known)
-      cost.seconds += at_level(params.flow_steps, level) * area * canvas.width * canvas.height *
-                      seconds_per_pixel_of_fill;
-    cost.seconds += at_level(params.iterations, level) *
-                    seconds_of_step(params, loss.seconds * area, size.values() * area,
-                                    at_level(params.optimizer, level));
+      cost.work.shared += at_level(params.flow_steps, level) * area * canvas.width * canvas.height *
+                          seconds_per_pixel_of_fill;
+    cost.work += at_level(params.iterations, level) *
+                 work_of_step(params, area * loss.work, size.values() * area,
+                              at_level(params.optimizer, level));
   }
   return cost;
 }

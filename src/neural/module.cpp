@@ -13,6 +13,6 @@ Texture run(const NeuralParams& params, const Request& request, const Control& c
 }  // namespace
 
 extern "C" const NeuralModule gramloom_neural_module;
-const NeuralModule gramloom_neural_module{run, neural::measure_blas};
+const NeuralModule gramloom_neural_module{run, neural::measure_blas, neural::measure_operations};
 
 }  // namespace gramloom

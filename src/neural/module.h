@@ -12,11 +12,13 @@ struct NeuralModule {
   static constexpr std::string_view name = "neural";
   Texture (*synthesise)(const NeuralParams& params, const Request& request, const Control& control);
   double (*blas_gigaflops)();
+  double (*operations_per_second)();
 };
 
 namespace neural {
 Texture run_synthesis(const NeuralParams& params, const Request& request, const Control& control);
 double measure_blas();
+double measure_operations();
 }  // namespace neural
 
 }  // namespace gramloom

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/cost.h"
 #include "core/progress.h"
 #include "core/request.h"
 #include "neural/params.h"

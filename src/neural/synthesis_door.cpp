@@ -18,4 +18,6 @@ Texture synthesise(const NeuralParams& params, const Request& request, const Con
 
 double blas_gigaflops() { return open_module<NeuralModule>().blas_gigaflops(); }
 
+double operations_per_second() { return open_module<NeuralModule>().operations_per_second(); }
+
 }  // namespace gramloom

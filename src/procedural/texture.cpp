@@ -141,7 +141,7 @@ Cost estimate(const ProceduralParams& params, const RequestSize& request) {
   const double pixels = static_cast<double>(request.size.width) * request.size.height;
   const double samples = pixels * params.samples * params.samples * params.frames;
   const double images = 5 + params.frames;  // colour, maps, and what light_relief works with
-  return {pixels * 3 * sizeof(float) * images, samples * 1.5e-7};
+  return {pixels * 3 * sizeof(float) * images, {.shared = samples * 1.5e-7}};
 }
 
 }  // namespace gramloom

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "core/abilities.h"
+#include "core/cost.h"
 #include "core/fields.h"
 #include "core/progress.h"
 #include "core/request.h"

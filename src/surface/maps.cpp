@@ -35,8 +35,8 @@ Cost estimate_maps(const MapParams& params, Size size) {
   const double pixels = 1.0 * size.width * size.height;
   const double lines = params.occlusion_lines;
   return {4 * pixels * (4 * params.normal + 3 * params.occlusion + 4 * params.curvature),
-          pixels *
-              (1e-8 * params.normal + 1.2e-8 * lines * params.occlusion + 3e-8 * params.curvature)};
+          {.shared = pixels * (1e-8 * params.normal + 1.2e-8 * lines * params.occlusion +
+                               3e-8 * params.curvature)}};
 }
 
 Image one_channel(const Image& height, float tolerance) {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/cost.h"
 #include "core/fields.h"
 #include "core/image.h"
 #include "core/progress.h"

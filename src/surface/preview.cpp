@@ -64,8 +64,9 @@ Cost estimate_preview(const PreviewParams& params, Size material) {
   const bool solid = params.mapping == Mapping::solid;
   return {16 * picture + per_triangle * triangles +
               (solid ? 0 : 4 * texels * channels * (1 + with_levels)),
-          0.1 + samples * (solid ? 1.2e-6 : 4e-7) + 1e-6 * triangles +
-              (solid ? 0 : 8e-9 * texels * channels)};
+          {.serial = 0.1,
+           .shared = samples * (solid ? 1.2e-6 : 4e-7) + 1e-6 * triangles +
+                     (solid ? 0 : 8e-9 * texels * channels)}};
 }
 
 Image shown_preview(const PreviewParams& params, const Image& rendered) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/cost.h"
 #include "core/image.h"
 #include "core/progress.h"
 #include "surface/preview_params.h"

@@ -33,8 +33,9 @@ Cost estimate(const TilingParams& params, const RequestSize& request) {
   // Four copies, one sorted channel, and which pixels count.
   const double bytes_in = 4.0 * exemplar.channels * 4 + 40;
   const double seconds_out = params.rotation > 0 ? 5e-7 : 1e-8;
-  return {in * bytes_in + 4 * exemplar.channels * out,
-          1e-7 * in * exemplar.channels + seconds_out * exemplar.channels * out};
+  return {
+      in * bytes_in + 4 * exemplar.channels * out,
+      {.serial = 1e-7 * in * exemplar.channels, .shared = seconds_out * exemplar.channels * out}};
 }
 
 }  // namespace gramloom

@@ -74,14 +74,17 @@ Cost estimate_training(const GeneratorLesson& lesson) {
   const int count = static_cast<int>(levels.size());
   const double side =
       std::min(smallest_of(lesson.exemplars).width, smallest_of(lesson.exemplars).height);
-  Cost cost{5e8, 1};
+  Cost cost{5e8, {.serial = 1}};
   for (int k = 0; k < count; ++k) {
     const double length =
         std::min<double>(at_level(lesson.recipe.crop, k), std::ldexp(side, k - count + 1));
     const double pixels = length * length * at_level(lesson.recipe.batch, k);
     const GeneratorLevel& level = levels[static_cast<std::size_t>(k)];
     const double products = 9.0 * level.hidden * level.hidden * level.layers;
-    cost.seconds += at_level(lesson.recipe.steps, k) * (0.01 + pixels * (6e-11 * products + 2e-6));
+    const double steps = at_level(lesson.recipe.steps, k);
+    cost.work += {.serial = 0.01 * steps,
+                  .shared = 3e-6 * steps * pixels,
+                  .operations = 12 * steps * pixels * products};
     cost.bytes = std::max(cost.bytes, 5e8 + pixels * (12.0 * level.hidden * level.layers +
                                                       8.0 * lesson.recipe.directions * 4));
   }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/cost.h"
 #include "core/progress.h"
 #include "core/request.h"
 #include "learnt/generator_model.h"

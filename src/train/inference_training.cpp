@@ -81,7 +81,8 @@ Cost estimate_training(const InferenceLesson& lesson) {
   const double data = static_cast<double>(lesson.pictures.size()) * 8 * picture.width *
                       picture.height * picture.channels;
   return {3e8 + data + 4 * values * lesson.recipe.batch,
-          1 + lesson.recipe.steps * (0.005 + lesson.recipe.batch * products * 1e-10)};
+          {.serial = 1 + 0.005 * lesson.recipe.steps,
+           .operations = 20.0 * lesson.recipe.steps * lesson.recipe.batch * products}};
 }
 
 }  // namespace gramloom

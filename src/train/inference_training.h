@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/cost.h"
 #include "core/progress.h"
 #include "learnt/inference_model.h"
 #include "train/inference_recipe.h"

@@ -1,6 +1,7 @@
 #include "cli/process.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -48,9 +49,10 @@ void redirect(int stream, const fs::path& file) {
 
 Outcome wait_for(pid_t pid, const fs::path& output, const fs::path& errors) {
   int status = 0;
-  waitpid(pid, &status, 0);
+  rusage used{};
+  wait4(pid, &status, 0, &used);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), take_file(output),
-          take_file(errors)};
+          take_file(errors), 1024.0 * static_cast<double>(used.ru_maxrss)};
 }
 
 }  // namespace

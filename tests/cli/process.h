@@ -10,9 +10,10 @@ namespace gramloom {
 
 /// How the executable ended and what it said.
 struct Outcome {
-  int exit_code = -1;  // 128 + signal when a signal ended it
-  std::string output;  // standard output
-  std::string errors;  // standard error
+  int exit_code = -1;      // 128 + signal when a signal ended it
+  std::string output;      // standard output
+  std::string errors;      // standard error
+  double peak_memory = 0;  // the most bytes that it held
 };
 
 /// The gramloom executable, running in `folder`.

@@ -66,7 +66,7 @@ Plan plan_of_random_jobs(int count) {
   for (int i = 0; i < count; ++i) {
     PlannedJob planned;
     planned.job.seed = i;
-    planned.cost.seconds = std::exp(6 * random.uniform());
+    planned.cost.work.serial = std::exp(6 * random.uniform());
     planned.selected = i % 7 != 0;
     plan.jobs.push_back(planned);
   }

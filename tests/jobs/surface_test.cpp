@@ -99,14 +99,14 @@ TEST_F(SurfaceOfJobs, PlansKnowWhatMapsAndPreviewsTake) {
   const auto planned = [&](const std::string& more) {
     return make_plan(parse_config(stone + more, folder_ / "c.toml")).jobs.front().finishing;
   };
-  EXPECT_EQ(planned("").seconds, 0);
+  EXPECT_EQ(seconds(planned("").work), 0);
   const Cost maps = planned(normal), preview = planned("[preview]\n"),
              fine = planned("[preview]\nsamples = 8\n"), all = planned(normal + "[preview]\n");
-  EXPECT_GT(maps.seconds, 0);
+  EXPECT_GT(seconds(maps.work), 0);
   EXPECT_GT(maps.bytes, 0);
-  EXPECT_GT(preview.seconds, 0.5);
-  EXPECT_GT(fine.seconds, 2 * preview.seconds);
-  EXPECT_DOUBLE_EQ(all.seconds, maps.seconds + preview.seconds);
+  EXPECT_GT(seconds(preview.work), 0.5);
+  EXPECT_GT(seconds(fine.work), 2 * seconds(preview.work));
+  EXPECT_DOUBLE_EQ(seconds(all.work), seconds(maps.work) + seconds(preview.work));
 }
 
 TEST_F(SurfaceOfJobs, MistakesAreOneLineWithTheirPlace) {

@@ -255,7 +255,8 @@ TEST(NeuralDirected, CostsWhatIsMade) {
   const Image image = stripes({256, 256}, 1);
   const Request small = hole_in(image, rectangle(image.size(), 20, 20, 16, 14, 1, 0));
   const Request large = hole_in(image, rectangle(image.size(), 20, 20, 160, 140, 1, 0));
-  EXPECT_LT(2 * estimate({}, size_of(small)).seconds, estimate({}, size_of(large)).seconds);
+  EXPECT_LT(2 * seconds(estimate({}, size_of(small)).work),
+            seconds(estimate({}, size_of(large)).work));
   Request several;
   several.exemplars = {{image}, {image}, {image}};
   Request one;

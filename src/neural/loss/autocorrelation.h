@@ -25,7 +25,8 @@ struct AutocorrelationParams {
 };
 
 inline LossCost cost(const AutocorrelationParams&, const LossSize& size) {
-  return {size.values() * seconds_per_transformed_value, sizeof(float) * 31 * size.values()};
+  return {{.shared = size.values() * seconds_per_transformed_value},
+          sizeof(float) * 31 * size.values()};
 }
 
 namespace neural {

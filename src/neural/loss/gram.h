@@ -55,9 +55,8 @@ struct GramParams {
 inline LossCost cost(const GramParams& params, const LossSize& size) {
   const auto shifts = static_cast<double>(params.shifts.size());
   const NetworkWork& work = size.of_result;
-  return {
-      4 * (work.products + 4 * shifts * work.products_within_scales) / matrix_operations_per_second,
-      sizeof(float) * 1.5 * 4 * 3 * shifts * work.matched};
+  return {{.operations = 4 * (work.products + 4 * shifts * work.products_within_scales)},
+          sizeof(float) * 1.5 * 4 * 3 * shifts * work.matched};
 }
 
 namespace neural {

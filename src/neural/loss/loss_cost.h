@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/image.h"
+#include "core/cost.h"
 #include "neural/network/work.h"
 
 namespace gramloom {
@@ -19,15 +19,15 @@ struct LossSize {
 /// Of one evaluation with its gradient. A term that looks at a network counts what it does with the
 /// maps; the maps themselves are counted once for all of them.
 struct LossCost {
-  double seconds = 0;  // on two current cores
-  double bytes = 0;    // beyond the pictures, while this term is evaluated
+  Work work;
+  double bytes = 0;  // beyond the pictures, while this term is evaluated
 };
 
-// Measured on two cores: what OpenBLAS and oneDNN reach over a whole evaluation, and the rest.
-inline constexpr double matrix_operations_per_second = 2.2e11;
-inline constexpr double patch_operations_per_second = 1.2e11;  // patches are gathered and spread
-inline constexpr double seconds_per_sorted_value = 6e-9;
-inline constexpr double seconds_per_counted_value = 5e-10;
-inline constexpr double seconds_per_transformed_value = 5e-8;
+// Measured; of one thread (Work::shared).
+inline constexpr double seconds_per_sorted_value = 9e-9;
+inline constexpr double seconds_per_counted_value = 7.5e-10;
+inline constexpr double seconds_per_transformed_value = 7.5e-8;
+/// Patches are gathered and spread, too: their products take as long as so many times as many.
+inline constexpr double operations_per_patch_operation = 1.8;
 
 }  // namespace gramloom

@@ -84,12 +84,12 @@ inline LossCost cost(const SlicedParams& params, const LossSize& size) {
   const double directions = size.directions, most = params.positions;
   const double exemplar = std::min(size.exemplar, most);
   const auto projected = [&](double positions) {
-    return 2 * taps * directions * positions / patch_operations_per_second;
+    return 2 * taps * directions * positions * operations_per_patch_operation;
   };
   if (size.result > most) {
     const double samples = exemplar + most;
-    return {projected(2 * size.result + samples) +
-                directions * (size.result + samples) * seconds_per_counted_value,
+    return {{.shared = directions * (size.result + samples) * seconds_per_counted_value,
+             .operations = projected(2 * size.result + samples)},
             sizeof(float) * samples * std::min<double>(directions, sampled_directions_at_once)};
   }
   const double larger = std::max(size.result, exemplar);
@@ -97,8 +97,8 @@ inline LossCost cost(const SlicedParams& params, const LossSize& size) {
       std::min<double>(directions, std::max(static_cast<double>(least_directions_at_once),
                                             static_cast<double>(sliced_values_at_once) / larger));
   const double keys = 16 * larger * std::min<double>(thread_count(), at_once);
-  return {projected(2 * size.result + exemplar) +
-              directions * (size.result + 0.5 * exemplar) * seconds_per_sorted_value,
+  return {{.shared = directions * (size.result + 0.5 * exemplar) * seconds_per_sorted_value,
+           .operations = projected(2 * size.result + exemplar)},
           sizeof(float) * 2 * at_once * larger + keys};
 }
 

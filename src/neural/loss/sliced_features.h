@@ -30,8 +30,7 @@ struct SlicedFeaturesParams {
 /// exemplar again.
 inline LossCost cost(const SlicedFeaturesParams&, const LossSize& size) {
   const double sorted = size.directions * (size.of_result.positions + size.of_exemplar.positions);
-  return {sorted * seconds_per_sorted_value +
-              size.of_exemplar.filters / 2 / matrix_operations_per_second,
+  return {{.shared = sorted * seconds_per_sorted_value, .operations = size.of_exemplar.filters / 2},
           3 * sizeof(float) * sorted};
 }
 

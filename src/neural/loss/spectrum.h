@@ -29,7 +29,7 @@ struct SpectrumParams {
 
 /// Large pictures are transformed channel by channel.
 inline LossCost cost(const SpectrumParams&, const LossSize& size) {
-  return {size.values() * seconds_per_transformed_value,
+  return {{.shared = size.values() * seconds_per_transformed_value},
           sizeof(float) * (1 + 25.0 / size.channels) * size.values()};
 }
 

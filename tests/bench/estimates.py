@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""What `check` says against what a process takes: memory and time, for every method.
+
+  tests/bench/estimates.py GRAMLOOM [KIND...]
+
+Each case is a run of its own of one job, without scores. On a quiet machine: a ratio is measured by
+estimated, 1 is right. The exemplars are data/pebbles.png, cut or repeated; needs Pillow and NumPy.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy
+from PIL import Image
+
+DATA = Path(__file__).resolve().parents[2] / "data"
+# kind, its keys, and the largest products of exemplar side and result side that are worth the wait
+METHODS = [
+    ("histogram", "", 1e9),
+    ("markov", "", 1e9),
+    ("phase", "", 1e9),
+    ("tiling", "", 1e9),
+    ("procedural", 'texture = "marble"', 1e9),
+    ("procedural", 'texture = "brick"', 1e9),
+    ("pyramid", "", 1e9),
+    ("patchmatch", "", 1e9),
+    ("quilting", "", 6e5),
+    ("quilting", "patch_size = 64", 6e5),
+    ("pixel", "", 6e5),
+    ("pixel", 'algorithm = "lefebvre_hoppe"', 6e5),
+    ("generator", 'model = "pebbles"', 1e9),
+    ("neural", "", 3e5),
+    ("neural", 'preset = "fast"', 3e5),
+    ("neural", 'preset = "gatys"\niterations = 20', 1e5),
+]
+SIZES = [(128, 128), (128, 512), (512, 512), (512, 1024), (1024, 512), (256, 2048)]  # exemplar, result
+CHANNELS = [1, 3, 4]
+
+
+def exemplar(folder, side, channels):
+    file = folder / f"pebbles_{side}_{channels}.png"
+    if file.exists():
+        return file
+    picture = numpy.asarray(Image.open(DATA / "pebbles.png").convert("RGB"))
+    times = -(-side // min(picture.shape[:2]))
+    values = numpy.tile(picture, (times, times, 1))[:side, :side].astype(int)
+    values += numpy.random.default_rng(1).integers(-3, 4, values.shape)  # repeated, but not the same
+    values = values.clip(0, 255).astype(numpy.uint8)
+    if channels == 1:
+        values = values[..., 1]
+    if channels == 4:
+        values = numpy.dstack([values, values[..., :1]])
+    Image.fromarray(values).save(file)
+    return file
+
+
+def measured(gramloom, folder, config):
+    process = subprocess.Popen([gramloom, "run", config, "--output", folder / "out", "--quiet"],
+                               stderr=subprocess.PIPE)
+    began = time.monotonic()
+    errors = process.stderr.read().decode()
+    _, status, used = os.wait4(process.pid, 0)
+    subprocess.run(["rm", "-rf", folder / "out"], check=True)
+    if status:
+        return None, None, None, errors.strip()
+    return (used.ru_maxrss * 1024, time.monotonic() - began, used.ru_utime + used.ru_stime, "")
+
+
+def compare(gramloom, folder, kind, keys, side, channels, size):
+    config = folder / "case.toml"
+    takes_exemplar = kind not in ("procedural", "generator")
+    config.write_text(
+        f"size = [{size}, {size}]\nscores = false\n"
+        + (f'[[exemplar]]\nname = "e"\nimage = "{exemplar(folder, side, channels)}"\n' if takes_exemplar else "")
+        + f'[[method]]\nname = "m"\nkind = "{kind}"\n{keys}\n')
+    checked = subprocess.run([gramloom, "check", config, "--json"], capture_output=True, text=True)
+    if checked.returncode:
+        return f"{kind}: {checked.stderr.strip()}"
+    expected = json.loads(checked.stdout)["jobs"][0]
+    memory, wall, cpu, errors = measured(gramloom, folder, config)
+    if errors:
+        return f"{kind}: {errors}"
+    what = kind + (" " + " ".join(keys.split()) if keys else "")
+    return (f"{what:42} {side:5}² × {channels} {size:5}²  memory {memory / 1e6:7.0f} MB {memory / expected['memory']:5.2f}"
+            f"   time {wall:7.2f} s {wall / expected['seconds']:5.2f}   cpu {cpu:7.2f} s {cpu / expected['seconds']:5.2f}")
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    gramloom, wanted = sys.argv[1], sys.argv[2:]
+    with tempfile.TemporaryDirectory() as folder:
+        for kind, keys, most in METHODS:
+            if wanted and kind not in wanted:
+                continue
+            for side, size in SIZES:
+                takes_exemplar = kind not in ("procedural", "generator")
+                if side * size > most or not takes_exemplar and (side, size) not in ((128, 128), (512, 1024), (256, 2048)):
+                    continue
+                for channels in CHANNELS if takes_exemplar else [3]:
+                    print(compare(gramloom, Path(folder), kind, keys, side, channels, size), flush=True)
+
+
+main()
