@@ -3,8 +3,7 @@
 // config. Blocks of other languages are the subject of tests/examples and tests/python. Comments
 // above a block say where it is otherwise, and why:
 //
-//   <!-- given: COMMAND -->      the test runs this before, to have what the reader has: a
-//   photograph
+//   <!-- given: COMMAND -->      the test runs this before, to have what the reader has
 //   <!-- in short: REASON -->    takes too long: tests/docs/in_short.sh says what is done instead
 //   <!-- not run: REASON -->     needs what is not there
 //   <!-- file: NAME -->          the block is saved as this file, for commands further down
