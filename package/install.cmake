@@ -25,6 +25,7 @@ install(PROGRAMS configs/cluster/array.sbatch DESTINATION ${CMAKE_INSTALL_DATADI
 # In no package: Debian has the text of this licence elsewhere, and wants no other copy.
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
 # The manual and completions: the program prints them.
 install(CODE "

@@ -14,7 +14,7 @@ namespace gramloom {
 
 /// Every method: summary, then each parameter with its default, what is allowed and its meaning.
 std::string list_methods();
-/// What each method can be asked beyond a texture of some size, as a table that the README has too.
+/// What each method can be asked beyond a texture of some size, as the table in docs/directing.md.
 std::string list_abilities();
 /// The sections of a config that direct its textures, with their keys.
 std::string list_direction();

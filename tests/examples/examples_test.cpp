@@ -1,5 +1,5 @@
-// The programs in examples/: they run, make what they promise, and the README quotes them as they
-// are.
+// The programs in examples/: they run, make what they promise, and docs/library.md quotes them as
+// they are.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -118,18 +118,18 @@ TEST_F(Example, AMistakeIsOneLine) {
   }
 }
 
-// Each block of C++ in the README is a part of an example: what can be copied from there compiles.
-TEST(Readme, QuotesTheExamplesAsTheyAre) {
+// Each block of C++ there is a part of an example: what can be copied from there compiles.
+TEST(Documents, QuoteTheExamplesAsTheyAre) {
   std::vector<std::string> examples;
   for (const auto& file : fs::directory_iterator(source_folder() / "examples"))
     if (file.path().extension() == ".cpp") examples.push_back(read_text(file.path()));
   ASSERT_GE(examples.size(), 3u);
-  const std::string readme = read_text(source_folder() / "README.md");
+  const std::string page = read_text(source_folder() / "docs/library.md");
   const std::string fence = "```cpp\n";
   int quotations = 0;
-  for (auto at = readme.find(fence); at != std::string::npos; at = readme.find(fence, at)) {
+  for (auto at = page.find(fence); at != std::string::npos; at = page.find(fence, at)) {
     at += fence.size();
-    const std::string quotation = readme.substr(at, readme.find("```", at) - at);
+    const std::string quotation = page.substr(at, page.find("```", at) - at);
     EXPECT_TRUE(std::any_of(
         examples.begin(), examples.end(),
         [&](const std::string& text) { return text.find(quotation) != std::string::npos; }))

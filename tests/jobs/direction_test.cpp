@@ -314,9 +314,9 @@ TEST(JoinVisibility, IsHighForAHardEdgeAndLowForNone) {
   EXPECT_GT(join_visibility(image, mask), 3);
 }
 
-// The README's table is the program's own.
-TEST(Abilities, StandInTheReadme) {
-  EXPECT_THAT(read_text(source_folder() / "README.md"), HasSubstr(list_abilities()));
+// The documents' table is the program's own.
+TEST(Abilities, StandInTheDocuments) {
+  EXPECT_THAT(read_text(source_folder() / "docs/directing.md"), HasSubstr(list_abilities()));
 }
 
 }  // namespace

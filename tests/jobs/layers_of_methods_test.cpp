@@ -109,7 +109,7 @@ TYPED_TEST(Layers, AFunctionOfAnotherStillObeysIt) {
 }
 
 // With a preset's own number of steps, on a picture of stones. Measured, in deviations of the
-// height: 0.42 for it and 0.22 for the normals; README says what other presets reach.
+// height: 0.42 for it and 0.22 for the normals; docs/maps.md says what other presets reach.
 TEST(LayersOfNeural, AFunctionOfAnotherIsNearlyObeyedInTheEnd) {
   const Image stones = read_image(source_folder() / "data/pebbles.png").image;
   const Exemplar exemplar = layered(fit_longer_side(stones, 96));

@@ -21,6 +21,7 @@ if ldd "$gramloom" "$temp"/usr/lib/gramloom/*.so | grep -e 'gramloom.*not found'
 "$gramloom" check "$share/configs/quickstart.toml" >/dev/null
 "$gramloom" make "$share/data/pebbles.png" --kind quilting --size 64 --output made.png --quiet
 test -s made.png
+test -s "$temp/usr/share/doc/gramloom/docs/README.md"
 
 # Every public header can be included with what the package asks for.
 mkdir "$temp/headers"
