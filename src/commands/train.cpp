@@ -52,6 +52,7 @@ ExitCode train(const TrainArguments& arguments) {
     return interrupted;
   }
   const auto textures = textures_of_trained(config, trained, options.only);
+  if (!textures && trained.failed > 0) return job_failed;
   const ExitCode ended = textures ? end_run(options, run(*textures, options, bar), bar)
                                   : show_models(config, options, bar);
   return ended == all_done && trained.failed > 0 ? job_failed : ended;

@@ -93,31 +93,34 @@ class Origin {
   struct Read {
     std::vector<std::string> set;
     std::optional<Config> config;  // none: why not
+    std::map<std::string, Job> jobs;
     std::string error;
   };
 
-  const Config& read(const fs::path& folder, const std::vector<std::string>& set) {
+  const Read& read(const fs::path& folder, const std::vector<std::string>& set) {
     std::vector<Read>& known = read_[folder];
     auto found = std::ranges::find(known, set, &Read::set);
     if (found == known.end()) {
-      found = known.insert(known.end(), {set, {}, {}});
+      found = known.insert(known.end(), {set, {}, {}, {}});
       try {
         const Config config = parse_config(run_.run.config_text, folder / run_.run.config, set);
         found->config =
             textures_of_trained(config, {0, false, trained_methods(config, run_.folder)}, "");
-        if (!found->config) found->error = "its config makes no textures";
+        if (!found->config) throw Error("its config makes no textures");
+        found->jobs = jobs_of(*found->config);
       } catch (const Error& error) {
         found->error = error.what();
       }
     }
-    if (!found->config) throw Error("{}", found->error);
-    return *found->config;
+    if (!found->error.empty()) throw Error("{}", found->error);
+    return *found;
   }
 
-  static Job job_in(const Config& config, const std::string& name) {
+  static std::map<std::string, Job> jobs_of(const Config& config) {
+    std::map<std::string, Job> jobs;
     for (const PlannedJob& planned : list_jobs(config).jobs)
-      if (planned.name == name) return planned.job;
-    throw Error("{} has no such job any more", config.file.string());
+      jobs.emplace(planned.name, planned.job);
+    return jobs;
   }
 
   Json settings_in(const Config& config, const Job& job) {
@@ -125,8 +128,12 @@ class Origin {
   }
 
   std::string config_in(const fs::path& folder, const JobOnDisk& job) {
-    const Config& config = read(folder, job.record.set);
-    const Job planned = job_in(config, job.name);
+    const Read& from = read(folder, job.record.set);
+    const auto found = from.jobs.find(job.name);
+    if (found == from.jobs.end())
+      throw Error("{} has no such job any more", from.config->file.string());
+    const Config& config = *from.config;
+    const Job planned = found->second;
     const Json made_by = settings_by_content(job.record.settings);
     const Json now = settings_in(config, planned);
     for (const auto& [key, value] : made_by.items())
@@ -134,7 +141,7 @@ class Origin {
         throw Error("its {} or a file of it has changed since it was made", key);
     const std::string text = job_config(config, planned);
     const Config alone = parse_config(text, "picked.toml");
-    if (settings_in(alone, job_in(alone, job.name)) != now)
+    if (settings_in(alone, jobs_of(alone).at(job.name)) != now)
       throw Error("a config of its own would make another picture");
     return text;
   }

@@ -11,7 +11,8 @@ const keyHelp = [
     ['enter', 'enlarge'],
     ['b', 'to what changed against the baseline']]],
   ['In an enlarged picture', [
-    ['← → ↑ ↓', 'other pictures of the exemplar, other exemplars'],
+    ['← →', 'other pictures of the exemplar'],
+    ['↑ ↓', 'other exemplars'],
     ['space', 'flip between A and B'],
     ['b', 'against the baseline: before and now'],
     ['t', 'tile 2 × 2'],

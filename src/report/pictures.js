@@ -100,6 +100,6 @@ function drawRows() {
     help ?? '');
   const exemplars = shownExemplars();
   if (exemplars.length > 0) fill('rows', exemplars.map(rowOf));
-  else fill('rows', el('p', { class: 'note' }, data.jobs.length > 0 ? 'Nothing is chosen.' : 'This run made no textures.'));
+  else fill('rows', el('p', { class: 'note' }, 'Nothing is chosen.'));
   applyScale();
 }

@@ -108,6 +108,12 @@ function startTheme() {
   });
 }
 
+// A training of inferences alone has no textures, and nothing that is told of them.
+if (data.jobs.length === 0)
+  for (const part of ['toolbar', 'pictures', 'scores', 'plots', 'meaning']) {
+    byId(part).hidden = true;
+    for (const link of document.querySelectorAll(`nav [href="#${part}"]`)) link.hidden = true;
+  }
 startTheme();
 readPicks();
 drawHead();

@@ -131,7 +131,7 @@ function redraw(change) {
   const focus = document.activeElement?.dataset?.keep;
   drawViewer();
   fitStage();
-  dialog.querySelector(`[data-keep="${focus}"]`)?.focus();
+  (dialog.querySelector(`[data-keep="${focus}"]`) ?? byId('stage')).focus();
 }
 
 function drawControls() {
@@ -234,7 +234,8 @@ function onKey(event) {
 }
 
 function startViewer() {
-  dialog.addEventListener('keydown', onKey);
+  // Wherever the focus is: what had it may be drawn anew.
+  document.addEventListener('keydown', (event) => { if (dialog.open && !byId('help').open) onKey(event); });
   dialog.addEventListener('close', () => {
     setAddress('');
     document.querySelector(`#rows [data-id="${CSS.escape(view.a.id)}"]`)?.focus();
