@@ -39,6 +39,7 @@ ExitCode dispatch(int argc, char** argv) {
                                       add_list(app),
                                       add_score(app),
                                       add_report(app),
+                                      add_pick(app),
                                       add_maps(app),
                                       add_preview(app),
                                       add_tile(app),

@@ -29,6 +29,7 @@ Command add_check(CLI::App& program);
 Command add_list(CLI::App& program);
 Command add_score(CLI::App& program);
 Command add_report(CLI::App& program);
+Command add_pick(CLI::App& program);
 Command add_maps(CLI::App& program);
 Command add_preview(CLI::App& program);
 Command add_tile(CLI::App& program);

@@ -8,6 +8,7 @@
 #include "io/image_file.h"
 #include "io/text_file.h"
 #include "jobs/machine.h"
+#include "jobs/marked_folder.h"
 #include "jobs/pattern.h"
 #include "report/preview.h"
 #include "runs/job_files.h"
@@ -167,20 +168,6 @@ fs::path write_materialx(const fs::path& stem, const MaterialFiles& files) {
 // Says of a folder that its pictures and documents are an export's, and may be replaced by another.
 constexpr const char* mark = "export.json";
 
-// Never into the run's own folder or another's, whose files have the same names, nor among files of
-// the user's: a folder is new, empty, or an earlier export's.
-void check_folder(const ExportWork& work) {
-  std::error_code ignored;
-  if (fs::equivalent(work.run, work.output, ignored))
-    throw ConfigError("export {}: --output {} is the run's own folder; choose another",
-                      work.run.string(), work.output.string());
-  if (fs::exists(work.output, ignored) && !fs::is_empty(work.output, ignored) &&
-      !fs::exists(work.output / mark, ignored))
-    throw ConfigError(
-        "export {}: --output {} has files that no export made; choose a new or an empty folder",
-        work.run.string(), work.output.string());
-}
-
 void mark_folder(const ExportWork& work) {
   create_folder(work.output);
   write_text(work.output / mark, fmt::format("{{ \"gramloom\": \"{}\" }}\n", version()));
@@ -211,7 +198,7 @@ fs::path export_job(const ExportWork& work, const JobOnDisk& job) {
 
 Exported export_run(const ExportWork& work) {
   const RunOnDisk run = read_results(work);
-  check_folder(work);
+  check_marked_folder({"export", work.run, work.output, mark});
   std::vector<const JobOnDisk*> finished;
   std::size_t wanted = 0;
   for (const JobOnDisk& job : run.jobs) {

@@ -25,6 +25,7 @@ struct MakeArguments {
   std::vector<std::string> maps;
   int max_side = 0;
   int threads = 0;
+  bool no_maps = false;
   bool print_config = false;
   bool quiet = false;
   std::vector<std::string> words;  // the command line itself
@@ -36,6 +37,7 @@ MakeWork work_of(const MakeArguments& arguments) {
   if (!arguments.size.empty()) work.size = size_of("--size", arguments.size);
   if (arguments.max_side > 0) work.max_side = arguments.max_side;
   work.maps = named_maps(arguments.maps);
+  work.finds_maps = !arguments.no_maps;
   if (!work.maps.empty() && work.exemplars.size() > 1)
     throw ConfigError("--map: is of one exemplar, not of several; a config can give each its own");
   return work;
@@ -89,8 +91,13 @@ Command add_make(CLI::App& program, const std::vector<std::string>& words) {
   command->add_option("--seed", work.seed, "of the random numbers; 1")
       ->check(CLI::Range(0, 2147483647))
       ->type_name("N");
-  add_repeated(*command, "--map", arguments->maps,
-               "a map of the exemplar, made together with it; can be repeated", "NAME=FILE");
+  CLI::Option* maps = add_repeated(
+      *command, "--map", arguments->maps,
+      "a map of the exemplar, made together with it; can be repeated. Without it, those beside one "
+      "picture are: wall_height.png, wall_normal.png of wall.png",
+      "NAME=FILE");
+  command->add_flag("--no-maps", arguments->no_maps, "leave those beside the picture out")
+      ->excludes(maps);
   command
       ->add_option(
           "--max-side", arguments->max_side,

@@ -19,6 +19,8 @@
 #include "jobs/runner.h"
 #include "jobs/worker.h"
 #include "runs/format.h"
+#include "runs/job_files.h"
+#include "runs/own_files.h"
 #include "signal/opencv_threads.h"
 
 namespace gramloom {
@@ -54,6 +56,11 @@ std::optional<Baseline> earlier_run(const RunArguments& arguments, const RunOpti
   }
 }
 
+// One with other results, or with another run, no longer holds.
+void forget_comparison(const std::filesystem::path& output) {
+  if (is_comparison(output / "baseline.json")) remove_file(output / "baseline.json");
+}
+
 // Prints what differs from an earlier run and leaves it as baseline.json; whether any of it is for
 // the worse.
 bool got_worse(const Baseline& before, const Config& config, const RunOptions& options,
@@ -62,7 +69,7 @@ bool got_worse(const Baseline& before, const Config& config, const RunOptions& o
   const Baseline now = read_baseline(options.output, options.only);
   const auto changes = compare(before, now, config.baseline);
   write_format(options.output / "baseline.json",
-               comparison_record(changes, before, config.baseline));
+               comparison_record(changes, before, now, config.baseline));
   if (!quiet || !changes.empty()) print(change_table(changes, before, now));
   return count_worse(changes) > 0;
 }
@@ -108,10 +115,11 @@ ExitCode run_config(const RunArguments& arguments) {
   if (before) options.inputs = input_files(*before);
   ProgressBar bar(progress_style(arguments.quiet));
   const RunSummary summary = run(config, options, bar);
-  const ExitCode ended = end_run(options, summary, bar);
-  if (ended == interrupted) return interrupted;
-  const bool worse = before && got_worse(*before, config, options, arguments.quiet);
-  return worse ? job_failed : ended;
+  forget_comparison(options.output);
+  const bool whole = summary.interrupted + summary.left == 0 && !summary.unscored;
+  const bool worse = before && whole && got_worse(*before, config, options, arguments.quiet);
+  const ExitCode ended = end_run(options, summary, bar);  // the page shows the comparison
+  return worse && ended != interrupted ? job_failed : ended;
 }
 
 }  // namespace

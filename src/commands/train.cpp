@@ -27,6 +27,15 @@ struct TrainArguments {
   std::vector<std::string> words;  // the command line itself
 };
 
+// The page of a training without textures, which shows the sequences that it made: a run of no job,
+// or what an earlier training left.
+ExitCode show_models(const Config& config, const RunOptions& options, ProgressBar& bar) {
+  if (std::filesystem::exists(options.output / "run.json")) return end_run(options, {}, bar);
+  Config models = config;
+  models.models.clear();
+  return end_run(options, run(models, options, bar), bar);
+}
+
 ExitCode train(const TrainArguments& arguments) {
   keep_large_buffers();
   use_threads(arguments.threads);
@@ -43,8 +52,9 @@ ExitCode train(const TrainArguments& arguments) {
     return interrupted;
   }
   const auto textures = textures_of_trained(config, trained, options.only);
-  if (!textures) return trained.failed > 0 ? job_failed : all_done;
-  const ExitCode ended = end_run(options, run(*textures, options, bar), bar);
+  if (!textures && trained.failed > 0) return job_failed;
+  const ExitCode ended = textures ? end_run(options, run(*textures, options, bar), bar)
+                                  : show_models(config, options, bar);
   return ended == all_done && trained.failed > 0 ? job_failed : ended;
 }
 

@@ -28,8 +28,11 @@ std::size_t count_worse(const std::vector<Change>& changes);
 std::string change_table(const std::vector<Change>& changes, const Baseline& before,
                          const Baseline& now);
 
-/// What baseline.json says of them.
+/// The jobs done in both runs whose pictures have other bytes, or whose scores are others.
+std::vector<ChangedJob> changed_jobs(const Baseline& before, const Baseline& now);
+
+/// What baseline.json says of all that.
 ComparisonRecord comparison_record(const std::vector<Change>& changes, const Baseline& before,
-                                   const BaselineLimits& limits);
+                                   const Baseline& now, const BaselineLimits& limits);
 
 }  // namespace gramloom

@@ -24,9 +24,4 @@ std::string change_table(const std::vector<Change>& changes, const Baseline& bef
                      before.folder.string(), count_worse(changes), changes.size());
 }
 
-ComparisonRecord comparison_record(const std::vector<Change>& changes, const Baseline& before,
-                                   const BaselineLimits& limits) {
-  return {before.folder.generic_string(), limits, static_cast<int>(count_worse(changes)), changes};
-}
-
 }  // namespace gramloom

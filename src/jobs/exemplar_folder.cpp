@@ -5,7 +5,6 @@
 #include <string>
 
 #include "core/error.h"
-#include "jobs/map_file.h"
 #include "jobs/names.h"
 
 namespace gramloom {
@@ -45,18 +44,25 @@ bool is_map_of(const std::string& stem, const std::string& other) {
          usual_map(colours.map) == MapKind::colour;
 }
 
-}  // namespace
-
-std::vector<fs::path> pictures_in(const fs::path& folder) {
+// All pictures there, maps too.
+std::vector<fs::path> all_pictures(const fs::path& folder) {
   std::error_code failure;
-  if (!fs::is_directory(folder, failure))
-    throw Error("{}: there is no such folder", folder.string());
   std::vector<fs::path> all;
   fs::directory_iterator entries(folder, failure);
   if (failure) throw Error("{}: {}", folder.string(), failure.message());
   for (const auto& entry : entries)
     if (is_picture(entry.path()) && entry.is_regular_file(failure)) all.push_back(entry.path());
   std::ranges::sort(all);
+  return all;
+}
+
+}  // namespace
+
+std::vector<fs::path> pictures_in(const fs::path& folder) {
+  std::error_code failure;
+  if (!fs::is_directory(folder, failure))
+    throw Error("{}: there is no such folder", folder.string());
+  const std::vector<fs::path> all = all_pictures(folder);
   std::vector<fs::path> pictures;
   std::ranges::copy_if(all, std::back_inserter(pictures), [&](const fs::path& file) {
     return std::ranges::none_of(all, [&](const fs::path& other) {
@@ -64,6 +70,21 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
     });
   });
   return pictures;
+}
+
+NamedFiles<MapFile> maps_beside(const fs::path& picture) {
+  NamedFiles<MapFile> maps;
+  const fs::path folder = picture.has_parent_path() ? picture.parent_path() : fs::path(".");
+  std::error_code failure;
+  if (!fs::is_directory(folder, failure)) return maps;  // nor is the picture there
+  for (const fs::path& file : all_pictures(folder)) {
+    const std::string stem = file.stem().string();
+    if (!is_map_of(stem, picture.stem().string())) continue;
+    MapFile map;
+    map.image = file;
+    maps.emplace(in_small_letters(split(stem).map), map);
+  }
+  return maps;
 }
 
 }  // namespace gramloom

@@ -9,6 +9,7 @@
 #include "jobs/inference_pairs.h"
 #include "jobs/protected_files.h"
 #include "runs/csv_fields.h"
+#include "runs/frames.h"
 #include "runs/job_files.h"
 
 namespace gramloom {
@@ -94,14 +95,6 @@ Scale scale_of(const InferenceModel& model, PixelType stored) {
 
 }  // namespace
 
-std::vector<fs::path> frame_files(const fs::path& folder, std::size_t count,
-                                  const std::string& format) {
-  std::vector<fs::path> files;
-  for (std::size_t i = 0; i < count; ++i)
-    files.push_back(folder / fmt::format("frame_{:04}.{}", i + 1, format));
-  return files;
-}
-
 InferredFiles write_inferred(const InferenceModel& model,
                              const std::vector<std::vector<double>>& poses,
                              const std::vector<fs::path>& files, const Control& control) {
@@ -149,7 +142,9 @@ InferredFiles infer_pictures(const InferWork& work, const Control& control) {
   } catch (const Error& error) {
     throw ConfigError("infer: {}", error.what());
   }
-  return write_inferred(model, poses, files, control);
+  InferredFiles inferred = write_inferred(model, poses, files, control);
+  if (files.front() != work.output) remove_earlier_frames(files);
+  return inferred;
 }
 
 }  // namespace gramloom

@@ -27,13 +27,6 @@ struct InferredFiles {
   std::vector<std::string> notes;
 };
 
-/// In the metadata of every picture that is inferred: its pose.
-inline constexpr const char* inferred_mark = "gramloom:inferred";
-
-/// frame_0001.exr … in the folder.
-std::vector<std::filesystem::path> frame_files(const std::filesystem::path& folder,
-                                               std::size_t count, const std::string& format);
-
 /// Writes the pictures of the poses into a file each, as floats where these can hold them; else the
 /// model's least and largest value become 0 and 1, and a note says so. The poses are the model's.
 /// Throws Error for files, Interrupted.
@@ -43,9 +36,10 @@ InferredFiles write_inferred(const InferenceModel& model,
                              const Control& control);
 
 /// Writes the pictures as `output`, or as frame_0001.exr … in the folder `output`, a row of a table
-/// or a frame of a sequence each. Throws ConfigError, before anything is written, for a model that
-/// cannot be read, poses that are not the model's or outside its ranges, and for an output that is
-/// a file of another kind; Error for files, Interrupted.
+/// or a frame of a sequence each; frames that a longer sequence has left there are removed. Throws
+/// ConfigError, before anything is written, for a model that cannot be read, poses that are not the
+/// model's or outside its ranges, and for an output that is a file of another kind; Error for
+/// files, Interrupted.
 InferredFiles infer_pictures(const InferWork& work, const Control& control);
 
 }  // namespace gramloom

@@ -9,6 +9,7 @@
 #include "jobs/machine.h"
 #include "jobs/pose_blends.h"
 #include "jobs/simulation.h"
+#include "runs/frames.h"
 #include "train/inference_training.h"
 
 namespace gramloom {
@@ -172,6 +173,7 @@ void make_frames(const LessonRun& run, const FrameSequence& sequence) {
   const std::vector<fs::path> files = frames_of(sequence, run.files);
   create_folder(files.front().parent_path());
   const InferredFiles made = write_inferred(model, poses_of(sequence), files, shown_by(run));
+  remove_earlier_frames(files);
   for (const std::string& note : made.notes)
     run.bar.message(fmt::format("{}: {}", run.lesson.name, note));
   run.bar.message(fmt::format("{}: {} frames in {}", run.lesson.name, files.size(),

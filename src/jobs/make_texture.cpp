@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/json_text.h"
+#include "jobs/exemplar_folder.h"
 #include "jobs/input_files.h"
 #include "jobs/loaded_request.h"
 #include "jobs/memory.h"
@@ -69,6 +70,12 @@ int max_side_of(const MakeWork& work) {
   return work.max_side.value_or(std::max({1024, work.size.width, work.size.height}));
 }
 
+// Those that are named; else those that lie beside the one picture.
+NamedFiles<MapFile> maps_of(const MakeWork& work) {
+  const bool look = work.maps.empty() && work.finds_maps && work.exemplars.size() == 1;
+  return look ? maps_beside(work.exemplars.front()) : work.maps;
+}
+
 std::string exemplar_section(const MakeWork& work) {
   std::string text =
       fmt::format("\n[[exemplar]]\nname = {}\n", quoted(exemplar_name(work.exemplars.front())));
@@ -78,11 +85,8 @@ std::string exemplar_section(const MakeWork& work) {
     text +=
         fmt::format("images = {}\n", quoted_paths({work.exemplars.begin(), work.exemplars.end()}));
   text += fmt::format("max_side = {}\n", max_side_of(work));
-  std::string maps;
-  for (const auto& [name, file] : work.maps)
-    maps +=
-        fmt::format("{}{} = {}", maps.empty() ? "" : ", ", quoted(name), quoted_path(file.image));
-  return maps.empty() ? text : text + fmt::format("maps = {{ {} }}\n", maps);
+  const NamedFiles<MapFile> maps = maps_of(work);
+  return maps.empty() ? text : text + fmt::format("maps = {}\n", named_files_in_config(maps));
 }
 
 // The config's word for the type of that file; of none, that of most pictures.
@@ -93,6 +97,16 @@ std::string_view format_of(const fs::path& output) {
       return word;
   throw ConfigError("--output {}: the name must end with .png, .tif, .exr or .jpg",
                     output.string());
+}
+
+// A map that nobody has named may not fit.
+Plan plan_of(const MakeWork& work, const Config& config) {
+  try {
+    return make_plan(config);
+  } catch (const ConfigError& error) {
+    if (!work.maps.empty() || maps_of(work).empty()) throw;
+    throw ConfigError("{}; --no-maps leaves out what lies beside a picture", error.what());
+  }
 }
 
 void check_possible(const Config& config, const Plan& plan) {
@@ -107,6 +121,14 @@ bool is_scaled_down(const ExemplarFacts& facts, int max_side) {
   return std::ranges::any_of(facts.request.exemplars, [&](const ExemplarSize& exemplar) {
     return std::max(exemplar.size.width, exemplar.size.height) == max_side;
   });
+}
+
+// "wall_height.png, wall_normal.png"
+std::string file_names(const NamedFiles<MapFile>& maps) {
+  std::string names;
+  for (const auto& [name, map] : maps)
+    names += (names.empty() ? "" : ", ") + map.image.filename().string();
+  return names;
 }
 
 // The names of maps are ours, not the user's: they are looked at as well.
@@ -135,9 +157,11 @@ std::string config_of(const MakeWork& work) {
 
 MadeFiles make_texture(const MakeWork& work, const Control& control) {
   const Config config = parse_config(config_of(work), "make");
-  const Plan plan = make_plan(config);
+  const Plan plan = plan_of(work, config);
   check_possible(config, plan);
-  check_files(work, config, work.maps);
+  const auto maps =
+      config.exemplars.empty() ? NamedFiles<MapFile>() : config.exemplars.front().maps;
+  check_files(work, config, maps);
   const Job& job = plan.jobs.front().job;
   FileHashes hashes;
   const Json settings = job_settings(config, job, input_hashes(config, job, hashes));
@@ -155,6 +179,9 @@ MadeFiles make_texture(const MakeWork& work, const Control& control) {
     made.notes.push_back(
         fmt::format("pictures are used with at most {} pixels on a side: --max-side changes that",
                     max_side_of(work)));
+  if (work.maps.empty() && !maps.empty())
+    made.notes.push_back(fmt::format("made with the maps beside {}: {}; --no-maps leaves them out",
+                                     work.exemplars.front(), file_names(maps)));
   for (const std::string& file : written.files)
     made.files.push_back(work.output.parent_path() / file);
   std::ranges::move(written.notes, std::back_inserter(made.notes));

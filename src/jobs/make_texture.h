@@ -15,6 +15,7 @@ namespace gramloom {
 struct MakeWork {
   std::vector<std::string> exemplars;  // pictures of one material; or a procedural texture's name
   NamedFiles<MapFile> maps;            // of the one exemplar
+  bool finds_maps = true;              // where none are named: those beside it (exemplar_folder.h)
   std::optional<int> max_side;         // none: 1024, or the longer side of the result
   Size size{512, 512};
   Tile tile = Tile::both;

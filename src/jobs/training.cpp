@@ -181,6 +181,14 @@ Trained train_models(const Config& config, const RunOptions& options, ProgressBa
   return trained;
 }
 
+std::vector<MethodEntry> trained_methods(const Config& config, const fs::path& output) {
+  std::vector<MethodEntry> methods;
+  for (const Lesson& lesson : lessons_of(config))
+    std::ranges::move(methods_of(config, lesson, job_files(output, "models/" + lesson.name)),
+                      std::back_inserter(methods));
+  return methods;
+}
+
 std::optional<Config> textures_of_trained(Config config, const Trained& trained,
                                           const std::string& only) {
   config.models.clear();

@@ -51,6 +51,9 @@ struct Trained {
 /// sequence of poses outside what would be learnt.
 Trained train_models(const Config& config, const RunOptions& options, ProgressBar& bar);
 
+/// The methods of all models that a config trains into `output`, as if they were there.
+std::vector<MethodEntry> trained_methods(const Config& config, const std::filesystem::path& output);
+
 /// The run that follows, as any: of the textures of what was trained, with those of the config's
 /// methods beside them. None when there is nothing to make.
 std::optional<Config> textures_of_trained(Config config, const Trained& trained,

@@ -7,23 +7,7 @@
 
 namespace gramloom {
 
-namespace {
-
 namespace fs = std::filesystem;
-
-template <class T>
-std::string value_text(const T& value) {
-  if constexpr (std::is_same_v<T, FileOrName>) {
-    if (value.is_name() || value.empty()) return quoted(value.string());
-    return quoted_path(value);
-  } else if constexpr (std::is_same_v<T, fs::path>) {
-    return value.empty() ? "\"\"" : quoted_path(value);
-  } else {
-    return value_to_text(value);
-  }
-}
-
-}  // namespace
 
 // TOML's basic strings are JSON's.
 std::string quoted(const std::string& text) {
@@ -43,6 +27,20 @@ std::string quoted_paths(const std::vector<fs::path>& files) {
   return "[" + list + "]";
 }
 
+std::string named_files_in_config(const NamedFiles<MapFile>& files) {
+  std::string table;
+  for (const auto& [name, file] : files) {
+    std::string entry;
+    for_each_field<MapFile>([&, &map = file](const auto& field) {
+      if (const std::string text = value_in_config(map.*field.member); !text.empty())
+        entry += fmt::format("{}{} = {}", entry.empty() ? "" : ", ", field.name, text);
+    });
+    table += fmt::format("{}{} = {}", table.empty() ? "" : ", ", quoted(name),
+                         file.kind || file.green ? "{ " + entry + " }" : quoted_path(file.image));
+  }
+  return "{ " + table + " }";
+}
+
 std::string exemplar_name(const fs::path& picture) {
   const std::string name = picture.stem().string();
   try {
@@ -58,7 +56,9 @@ std::string parameter_text(const Method& method, std::string_view key) {
   std::visit(
       [&](const auto& params) {
         for_each_parameter(params, [&](const auto& field, const auto& value) {
-          if (field.name == key) text = value_text(value);
+          if (field.name != key) return;
+          text = value_in_config(value);
+          if (text.empty()) text = value_to_text(value);
         });
       },
       method);

@@ -17,7 +17,7 @@ function scoreList(job) {
       el('th', { scope: 'row' }, score.label, ' ',
         el('span', { class: 'direction', title: direction(score) }, arrow(score))),
       el('td', {}, show(score, valueOf(job, score.key))),
-      el('td', { class: 'rank' }, rankText(job, score))))));
+      el('td', { class: 'rank' }, wasScore(job, score) || rankText(job, score))))));
 }
 
 /** Scores of maps have no columns: each kind of map has others. */

@@ -25,10 +25,10 @@ const seeds = [...new Set(data.jobs.map((job) => job.seed))];
 
 // --- scores: those of the metrics' list, and the costs ------------------------------------------
 
-for (const { exemplar, method, value } of data.diversity)
-  for (const job of data.jobs)
-    if (job.exemplar === exemplar && job.method === method)
-      job.metrics = { ...job.metrics, diversity: value };
+const pair = ({ exemplar, method }) => JSON.stringify([exemplar, method]);
+const diversities = new Map(data.diversity.map((of) => [pair(of), of.value]));
+for (const job of data.jobs)
+  if (diversities.has(pair(job))) job.metrics = { ...job.metrics, diversity: diversities.get(pair(job)) };
 
 const valueOf = (job, key) => {
   const value = key === 'seconds' || key === 'peak_memory_mb' ? job[key] : job.metrics?.[key];
@@ -121,13 +121,16 @@ const chosen = {
   methods: new Set(data.methods),     // those that are shown
   score: (scores[0] ?? {}).key,       // under the pictures and in the plots
   scale: 'auto',                      // CSS pixels a pixel
+  picked: false,                      // those that are picked alone
 };
 const chosenScore = () => scores.find((score) => score.key === chosen.score);
 const isShown = (job) => (!chosen.exemplar || job.exemplar === chosen.exemplar) &&
-  chosen.methods.has(job.method);
+  chosen.methods.has(job.method) && (!chosen.picked || picks.has(job.name));
 const shownJobs = () => data.jobs.filter(isShown);
-const shownExemplars = () => data.exemplars.filter(({ name }) => shownJobs()
-  .some((job) => job.exemplar === name));
+const shownExemplars = () => {
+  const names = new Set(shownJobs().map((job) => job.exemplar));
+  return data.exemplars.filter(({ name }) => names.has(name));
+};
 const jobLabel = (job) => job.method + (seeds.length > 1 ? `, seed ${job.seed}` : '');
 
 const parts = [];  // functions that draw a part of the page anew

@@ -8,8 +8,10 @@
 #include "io/field_values.h"
 #include "io/json_fields.h"
 #include "metrics/map_scores.h"
+#include "report/baseline_view.h"
 #include "report/live_view.h"
 #include "report/preview.h"
+#include "report/sequence_view.h"
 #include "report/surface_view.h"
 #include "runs/job_files.h"
 #include "runs/job_maps.h"
@@ -258,6 +260,14 @@ Json job_to_json(const RunOnDisk& run, const JobOnDisk& job, const ShownExemplar
           {"trace", job.trace.rows.empty() ? Json() : thin_trace(job.trace, trace_points)}};
 }
 
+std::map<std::string, const ChangedJob*> changes_by_job(
+    const std::optional<ComparisonRecord>& comparison) {
+  std::map<std::string, const ChangedJob*> changes;
+  if (comparison)
+    for (const ChangedJob& job : comparison->jobs) changes[job.job] = &job;
+  return changes;
+}
+
 // What directs the textures, as the config has it; paths are relative to that.
 Json direction_of(const RunRecord& run) {
   Json direction = Json::object();
@@ -307,6 +317,8 @@ Json page_data(const RunOnDisk& run) {
   std::vector<std::string> methods;
   Json jobs = Json::array();
   std::map<std::string, ShownExemplar> sources;
+  const auto comparison = read_comparison(run, trouble);
+  const auto changed = changes_by_job(comparison);
   for (const JobOnDisk& job : run.jobs) {
     const std::string& exemplar = job.record.exemplar;
     if (!sources.contains(exemplar)) {
@@ -317,7 +329,13 @@ Json page_data(const RunOnDisk& run) {
         std::find(methods.begin(), methods.end(), method) == methods.end())
       methods.push_back(method);
     jobs.push_back(job_to_json(run, job, sources[exemplar], trouble));
+    if (const auto found = changed.find(job.name); found != changed.end())
+      jobs.back()["before"] = baseline_job(
+          run, *comparison, *found->second,
+          [&](const std::string& label) { return sources[exemplar].white_of_view(label); },
+          trouble);
   }
+  const Json sequences = sequence_views(run, trouble);
   return {{"title", title_of(run)},
           {"run", run_to_json(run.run)},
           {"trouble", trouble},
@@ -325,6 +343,8 @@ Json page_data(const RunOnDisk& run) {
           {"exemplars", exemplars},
           {"methods", methods},
           {"map_metrics", metrics_to_json(map_metrics())},
+          {"baseline", comparison ? baseline_summary(*comparison) : Json()},
+          {"sequences", sequences},
           {"jobs", jobs},
           {"diversity", to_json_value(run.diversity)}};
 }

@@ -1,11 +1,13 @@
 // A row of pictures for each exemplar, all at the same scale.
 
 /** Everything that has a picture: {id, exemplar, job or null, title, width, height, views}. */
+const jobsOf = new Map(data.exemplars.map(({ name }) => [name, []]));
+for (const job of data.jobs) jobsOf.get(job.exemplar)?.push(job);
 const subjects = data.exemplars.flatMap((exemplar) => [
   ...(exemplar.picture ? [{ id: exemplar.name, exemplar: exemplar.name, job: null,
     title: 'exemplar', view: exemplar.view, width: exemplar.picture.width, height: exemplar.picture.height,
     views: [{ label: 'picture', file: exemplar.picture.file }, ...exemplar.map_pictures] }] : []),
-  ...data.jobs.filter((job) => job.exemplar === exemplar.name).map((job) => ({
+  ...jobsOf.get(exemplar.name).map((job) => ({
     id: job.name, exemplar: exemplar.name, job, title: jobLabel(job),
     width: job.width ?? 128, height: job.height ?? 128,
     views: [...job.pictures.slice(0, 1),
@@ -13,6 +15,8 @@ const subjects = data.exemplars.flatMap((exemplar) => [
       ...job.pictures.slice(1)],
   })),
 ]);
+const subjectsOf = new Map(data.exemplars.map(({ name }) => [name, []]));
+for (const subject of subjects) subjectsOf.get(subject.exemplar).push(subject);
 const subjectById = new Map(subjects.map((subject) => [subject.id, subject]));
 const describe = (subject) => subject.job
   ? `${subject.exemplar} by ${subject.title}` : `the exemplar ${subject.exemplar}`;
@@ -48,13 +52,14 @@ function captionOf(subject, score, bestValue) {
   const shown = value === null ? '' : show(score, value);
   const isBest = shown && bestValue !== null && shown === show(score, bestValue);
   return el('figcaption', {}, el('span', { class: 'name' }, swatch(subject.job.method), subject.title),
+    pickButton(subject),
     subject.job.status === 'interrupted' && el('span', { class: 'bad' }, 'unfinished'),
     el('span', { class: isBest ? 'value best' : 'value', title: isBest ? 'best of this row' : null },
       shown));
 }
 
 function rowOf(exemplar) {
-  const own = subjects.filter((subject) => subject.exemplar === exemplar.name);
+  const own = subjectsOf.get(exemplar.name);
   const results = own.filter((subject) => subject.job && isShown(subject.job));
   const score = chosenScore();
   const bestValue = score ? best(score, results.map(({ job }) => valueOf(job, score.key))) : null;
@@ -70,7 +75,7 @@ function rowOf(exemplar) {
 
 /** CSS pixels a pixel: as asked, or what shows the widest picture well; never wider than the window. */
 function scaleFor(available) {
-  const widest = Math.max(...subjects.map((subject) => subject.width), 1);
+  const widest = subjects.reduce((most, { width }) => Math.max(most, width), 1);
   const fits = available / widest;
   if (chosen.scale !== 'auto') return Math.min(Number(chosen.scale), fits);
   if (available < 640) {  // a phone: two a row where that leaves something to see
@@ -84,16 +89,17 @@ function scaleFor(available) {
 function applyScale() {
   const scale = scaleFor(byId('rows').clientWidth);
   document.documentElement.style.setProperty('--scale', scale);
-  byId('rows').classList.toggle('smooth', scale * devicePixelRatio < 1);
+  document.body.classList.toggle('smooth-rows', scale * devicePixelRatio < 1);
 }
 
 function drawRows() {
   const score = chosenScore();
   const help = score && [`Under each picture: ${score.label}, ${direction(score)}; the best of a row is bold. `,
     score.fooled_by && [el('a', { href: `#score-${score.key}` }, 'What fools it'), '. ']];
-  fill('pictures-note', 'All at the same scale. A click enlarges, flips between any two, and tiles. ',
+  fill('pictures-note', 'All at the same scale. A click enlarges, flips between any two, and tiles; p picks, ? lists the keys. ',
     help ?? '');
-  fill('rows', shownExemplars().map(rowOf));
-  if (shownJobs().length === 0) fill('rows', el('p', { class: 'note' }, 'Nothing is chosen.'));
+  const exemplars = shownExemplars();
+  if (exemplars.length > 0) fill('rows', exemplars.map(rowOf));
+  else fill('rows', el('p', { class: 'note' }, 'Nothing is chosen.'));
   applyScale();
 }

@@ -65,10 +65,15 @@ bool browsers_show(const fs::path& file) {
   return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
 }
 
+fs::path preview_file(const fs::path& file) {
+  fs::path preview = file.begin() != file.end() && *file.begin() == "page" ? file : "page" / file;
+  return preview += ".png";
+}
+
 std::string shown_file(const fs::path& folder, const std::string& file, double white) {
   if (!fs::is_regular_file(folder / file)) throw Error("{} is not there", file);
   if (browsers_show(file)) return file;
-  const fs::path shown = fs::path("page") / (file + ".png");
+  const fs::path shown = preview_file(file);
   if (is_older(folder / shown, folder / file)) {
     create_folders((folder / shown).parent_path());
     write_image(folder / shown, preview(read_image(folder / file), white), {});

@@ -18,6 +18,9 @@ Image preview(const ImageFile& file, double white);
 /// Whether browsers show a file of this name.
 bool browsers_show(const std::filesystem::path& file);
 
+/// Where the preview of a picture is, both from the run's folder on: page/FILE.png.
+std::filesystem::path preview_file(const std::filesystem::path& file);
+
 /// The path, relative to `folder`, of a picture that browsers show: `file` itself or, for EXR, TIFF
 /// and the like, a preview of it in folder/page, which is made when it is missing or older.
 /// Throws Error.

@@ -5,6 +5,7 @@ function summarySentence() {
   const states = ['done', 'failed', 'interrupted', 'waiting']
     .map((status) => [status, count(status)]).filter(([, n]) => n > 0);
   const exemplars = data.exemplars.filter(({ image }) => image !== null).length;
+  if (data.jobs.length === 0) return 'Trained models, without textures.';
   const what = `${plural(data.methods.length, 'method')}, ` +
     (exemplars > 0 ? `${plural(exemplars, 'exemplar')}, ` : '') +
     `${plural(seeds.length, 'seed')}: ${plural(data.jobs.length, 'job')}`;
@@ -98,24 +99,32 @@ function setTheme(theme) {
   byId('theme').setAttribute('aria-label', `Colours: ${theme}. Change`);
 }
 function startTheme() {
-  const store = {  // pages on disk may have none
-    get: () => { try { return localStorage.getItem('gramloom-theme'); } catch { return null; } },
-    set: (theme) => { try { localStorage.setItem('gramloom-theme', theme); } catch { /* none */ } },
-  };
-  setTheme(themes.includes(store.get()) ? store.get() : 'auto');
+  const kept = store.get('gramloom-theme');
+  setTheme(themes.includes(kept) ? kept : 'auto');
   byId('theme').addEventListener('click', () => {
     const next = themes[(themes.indexOf(document.documentElement.dataset.theme) + 1) % themes.length];
     setTheme(next);
-    store.set(next);
+    store.set('gramloom-theme', next);
   });
 }
 
+// A training of inferences alone has no textures, and nothing that is told of them.
+if (data.jobs.length === 0)
+  for (const part of ['toolbar', 'pictures', 'scores', 'plots', 'meaning']) {
+    byId(part).hidden = true;
+    for (const link of document.querySelectorAll(`nav [href="#${part}"]`)) link.hidden = true;
+  }
 startTheme();
+readPicks();
 drawHead();
 drawToolbar();
 drawGlossary();
 parts.push(drawRows, drawTable, drawPlots);
+drawChanges();
+drawSequences();
 update();
+drawPicks();
+startKeys();
 startViewer();
 let resizing = 0;
 window.addEventListener('resize', () => {

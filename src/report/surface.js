@@ -303,7 +303,7 @@ function listenToDrags(canvas) {
 // --- its place in the viewer ----------------------------------------------------------------------------
 
 const surfaceFile = (subject) => subject.job ? subject.job.view : subject.view;
-const isLit = (subject) => view.surface && view.surface !== 'live' && Boolean(surfaceFile(subject));
+const isLit = (subject) => ['ball', 'wall'].includes(view.surface) && Boolean(surfaceFile(subject));
 
 /** Where nothing can be drawn live: a rendered preview, or a line that says why. */
 function surfaceFallback(subject, why) {

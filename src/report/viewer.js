@@ -1,22 +1,22 @@
 // One picture enlarged: flipped with any other, tiled, its copy map, its settings and its command.
 
 const view = { a: null, b: null, showB: false, label: 'picture', tiled: false,
-  surface: null };  // 'ball', 'wall': lit; 'live': made anew; in place of the picture
+  surface: null };  // 'ball', 'wall': lit; 'live': made anew; 'before': against the baseline
 const dialog = byId('viewer');
 
 /** The picture that stands in for `subject` in another exemplar's row: the same method and seed. */
-const counterpart = (subject, exemplar) => subjects.find((other) => other.exemplar === exemplar &&
-  (subject.job ? other.job?.method === subject.job.method && other.job.seed === subject.job.seed
-    : !other.job));
-const rowOfView = () => subjects.filter((subject) => subject.exemplar === view.a.exemplar &&
-  (!subject.job || isShown(subject.job) || subject === view.a));
+const counterpart = (subject, exemplar) => subjectsOf.get(exemplar).find((other) => (subject.job
+  ? other.job?.method === subject.job.method && other.job.seed === subject.job.seed
+  : !other.job));
+const rowOfView = () => subjectsOf.get(view.a.exemplar).filter((subject) =>
+  !subject.job || isShown(subject.job) || subject === view.a);
 
-function openViewer(subject) {
-  const source = subjects.find((other) => other.exemplar === subject.exemplar && !other.job);
-  const others = subjects.filter((other) => other.exemplar === subject.exemplar && other !== subject &&
-    other.views.length > 0);
+function openViewer(subject, surface = null) {
+  const own = subjectsOf.get(subject.exemplar);
+  const source = own.find((other) => !other.job);
+  const others = own.filter((other) => other !== subject && other.views.length > 0);
   Object.assign(view, { a: subject, b: subject === source ? others[0] ?? null : source ?? others[0] ?? null,
-    showB: false, label: 'picture', tiled: false, surface: null });
+    showB: false, label: 'picture', tiled: false, surface });
   drawViewer();
   if (!dialog.open) dialog.showModal();
   fitStage();
@@ -74,6 +74,7 @@ function layer(subject, hidden) {
 function drawStage() {
   const shown = view.showB ? view.b : view.a;
   if (isLive(shown)) return drawLiveStage(shown);
+  if (isBefore(shown)) return drawBeforeStage(shown);
   if (isLit(shown)) return drawSurfaceStage(shown);
   return el('div', { id: 'stage', class: 'stage', tabindex: '0', 'data-keep': 'stage', onclick: flip,
     'aria-label': `${describe(shown)}. Space flips`, role: 'group' },
@@ -86,13 +87,15 @@ function drawStage() {
 function fitStage() {
   const stage = byId('stage');
   if (!dialog.open || !stage) return;
-  if (isLive(view.showB ? view.b : view.a)) return void fitLive();
-  if (view.surface && view.surface !== 'live') return void paintSoon();
+  const shown = view.showB ? view.b : view.a;
+  if (isLive(shown)) return void fitLive();
+  if (isLit(shown)) return void paintSoon();
   const layers = [...stage.querySelectorAll('.layer[data-width]')];
-  const times = view.tiled ? 2 : 1;
+  const beside = isBefore(shown) && stage.querySelector('.half') ? 2 : 1;
+  const times = view.tiled && !isBefore(shown) ? 2 : 1;
   const width = Math.max(...layers.map((node) => Number(node.dataset.width)), 1) * times;
   const height = Math.max(...layers.map((node) => Number(node.dataset.height)), 1) * times;
-  const fits = Math.min(stage.clientWidth / width, stage.clientHeight / height);
+  const fits = Math.min(stage.clientWidth / beside / width, stage.clientHeight / height);
   const scale = fits >= 1 ? Math.floor(fits) : fits;
   stage.classList.toggle('smooth', scale * devicePixelRatio < 1);
   for (const node of layers)
@@ -100,11 +103,22 @@ function fitStage() {
       image.style.width = `${Math.max(1, Math.floor(node.dataset.width * scale))}px`;
       image.style.height = `${Math.max(1, Math.floor(node.dataset.height * scale))}px`;
     }
+  if (isBefore(shown)) fitBefore();
+}
+
+const manySubjects = 400;  // beyond these, lists hold those around the one that is shown
+
+/** Those of a list that are near `subject`; all of a list that is not long. */
+function around(list, subject, most) {
+  const at = list.indexOf(subject);
+  const first = Math.max(0, Math.min(at - most / 2, list.length - most));
+  return list.slice(first, first + most);
 }
 
 function pairChoice(letter, subject, onChoice) {
-  const groups = data.exemplars.map(({ name }) => el('optgroup', { label: name },
-    subjects.filter((other) => other.exemplar === name).map((other) =>
+  const offered = subjects.length <= manySubjects ? data.exemplars : [{ name: subject.exemplar }];
+  const groups = offered.map(({ name }) => el('optgroup', { label: name },
+    around(subjectsOf.get(name), subject, manySubjects).map((other) =>
       el('option', { value: other.id, selected: other === subject }, `${name} · ${other.title}`))));
   return el('label', { class: (letter === 'B') === view.showB ? 'choice on' : 'choice' },
     el('span', {}, letter),
@@ -117,7 +131,7 @@ function redraw(change) {
   const focus = document.activeElement?.dataset?.keep;
   drawViewer();
   fitStage();
-  dialog.querySelector(`[data-keep="${focus}"]`)?.focus();
+  (dialog.querySelector(`[data-keep="${focus}"]`) ?? byId('stage')).focus();
 }
 
 function drawControls() {
@@ -126,7 +140,7 @@ function drawControls() {
     .flatMap((subject) => subject.views.map(({ label }) => label)))];
   const setLabel = (label) => {
     view.label = label;
-    view.surface = null;
+    if (view.surface !== 'before') view.surface = null;
     view.showB &&= view.b.views.some((own) => own.label === label);
   };
   const button = (text, on, hint, change) => el('button', { type: 'button', title: hint,
@@ -139,26 +153,29 @@ function drawControls() {
       view.b && pairChoice('B', view.b, (subject) => redraw(() => { view.b = subject; view.showB = true; }))),
     el('div', { class: 'segments', role: 'group', 'aria-label': 'What of it' },
       button('2 × 2', view.tiled && !view.surface, 't', () => { view.tiled = Boolean(view.surface) || !view.tiled; view.surface = null; }),
+      hasBefore(shown) && button('before', view.surface === 'before', 'b: against the baseline',
+        () => { view.surface = view.surface === 'before' ? null : 'before'; }),
       surfaceFile(shown) && ['ball', 'wall'].map((shape) => button(shape, view.surface === shape,
-        shape === 'ball' ? 'b: on a lit ball' : 'w: as a lit wall',
+        shape === 'ball' ? 'o: on a lit ball' : 'w: as a lit wall',
         () => { view.surface = view.surface === shape ? null : shape; })),
       shown.job?.live && button('live', view.surface === 'live', 'l: made anew, in this browser',
         () => { view.surface = view.surface === 'live' ? null : 'live'; }),
       labels.length > 1 && labels.length <= 5 && labels.map((label) => button(label,
-        label === view.label && !view.surface,
+        label === view.label && (!view.surface || isBefore(shown)),
         label === 'copy map' ? 'c: where in the exemplar each pixel came from' : null, () => setLabel(label)))),
     isLit(shown) && el('div', { class: 'pair', id: 'surface-controls' }),
     isLive(shown) && drawLiveControls(),
+    isBefore(shown) && drawBeforeControls(),
     labels.length > 5 && choice('Show', labels.map((label) => [label, label]), view.label,
       (label) => redraw(() => setLabel(label))),
     el('p', { class: 'keys' }, isLit(shown)
-      ? 'drag, or arrow keys: turn · with shift: the light · + − repeat · space flips · b ball · w wall · esc closes'
-      : `← → pictures · ↑ ↓ exemplars · space flips · t 2 × 2 · b ball · w wall · ${shown.job?.live ? 'l live · ' : ''}c copy map · esc closes`));
+      ? 'drag, or arrow keys: turn · with shift: the light · + − repeat · space flips · o ball · w wall · ? all keys · esc closes'
+      : `← → pictures · ↑ ↓ exemplars · space flips · p picks · ${hasBefore(shown) ? 'b before · ' : ''}t 2 × 2 · ? all keys · esc closes`));
 }
 
 function drawStrip() {
   return el('div', { class: 'strip', role: 'group', 'aria-label': `Pictures of ${view.a.exemplar}` },
-    rowOfView().map((subject) => el('button', { type: 'button', title: subject.title,
+    around(rowOfView(), view.a, 60).map((subject) => el('button', { type: 'button', title: subject.title,
       'aria-label': subject.title, 'aria-current': subject === view.a ? 'true' : null,
       onclick: () => showSubject(subject) },
     subject.views.length > 0
@@ -178,7 +195,8 @@ function drawViewer() {
   dialog.replaceChildren(
     el('div', { class: 'viewer-head' },
       el('h2', { id: 'viewer-title' }, `${shown.exemplar} `, el('span', {}, shown.title)),
-      el('button', { type: 'button', class: 'close', 'aria-label': 'Close', onclick: () => dialog.close() }, '×')),
+      el('span', { class: 'viewer-buttons' }, pickButton(shown),
+        el('button', { type: 'button', class: 'close', 'aria-label': 'Close', onclick: () => dialog.close() }, '×'))),
     el('div', { class: 'viewer-body' },
       el('div', { class: 'viewer-left' }, drawStage(), drawControls(), drawStrip()),
       drawDetails(shown)));
@@ -190,11 +208,14 @@ function drawViewer() {
 function onKey(event) {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
   const target = event.target.tagName;
-  if (target === 'SELECT' || target === 'TEXTAREA' || target === 'INPUT' || event.target.id === 'settings') return;
+  // A slider keeps the keys that move it.
+  if (event.target.type === 'range' ? event.key.length > 1 : isTyping(event.target)) return;
   if (isLit(view.showB ? view.b : view.a) && event.target.id === 'stage' && surfaceKey(event)) return;
   const lit = (shape) => () => redraw(() => { view.surface = view.surface === shape ? null : shape; });
   const actions = {
-    b: lit('ball'), w: lit('wall'), l: lit('live'),
+    o: lit('ball'), w: lit('wall'), l: lit('live'),
+    b: () => redraw(() => { view.surface = view.surface === 'before' ? null : 'before'; view.showB = false; }),
+    j: () => step(1), k: () => step(-1), p: () => togglePick(view.showB ? view.b : view.a),
     ArrowLeft: () => step(-1), ArrowRight: () => step(1),
     ArrowUp: () => stepExemplar(-1), ArrowDown: () => stepExemplar(1),
     f: flip, t: () => redraw(() => { view.tiled = Boolean(view.surface) || !view.tiled; view.surface = null; }),
@@ -207,13 +228,14 @@ function onKey(event) {
   const action = actions[event.key];
   if (!action) return;
   event.preventDefault();
-  const inStage = document.activeElement?.id === 'stage';
+  const inStage = ['stage', 'cut'].includes(document.activeElement?.id);
   action();
-  if (inStage) byId('stage').focus();
+  if (inStage) (event.key === 'b' && byId('cut') || byId('stage')).focus();
 }
 
 function startViewer() {
-  dialog.addEventListener('keydown', onKey);
+  // Wherever the focus is: what had it may be drawn anew.
+  document.addEventListener('keydown', (event) => { if (dialog.open && !byId('help').open) onKey(event); });
   dialog.addEventListener('close', () => {
     setAddress('');
     document.querySelector(`#rows [data-id="${CSS.escape(view.a.id)}"]`)?.focus();

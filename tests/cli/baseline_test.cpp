@@ -58,6 +58,53 @@ TEST_F(BaselineRun, DamageToPicturesAndScoresIsFound) {
   EXPECT_EQ(other.exit_code, 0) << other.output;
 }
 
+TEST_F(BaselineRun, ThePageShowsWhatChangedAndKeepsTheEarlierPictures) {
+  ASSERT_EQ(run({"run", "c.toml", "--quiet", "--output", "before"}).exit_code, 0);
+  damage_picture("before/e/q/seed1.png");
+  damage_score("before/e/q/seed2.json", "stsim2", 0.98765);
+  const std::string earlier = file("before/e/q/seed1.png");
+  compare("before");
+  const Json json = Json::parse(file("now/baseline.json"));
+  EXPECT_EQ(json["folder"], "../before");
+  ASSERT_EQ(json["jobs"].size(), 2u);
+  EXPECT_EQ(json["jobs"][0]["job"], "e/q/seed1");
+  EXPECT_EQ(json["jobs"][0]["pictures"][0]["now"], "e/q/seed1.png");
+  EXPECT_EQ(json["jobs"][1]["scores"], (Json{{"stsim2", 0.98765}}));
+  EXPECT_TRUE(file("now/page/before/e/q/seed1.png") == earlier);
+  const auto shows = [&](const std::string& text) {
+    EXPECT_THAT(file("now/index.html"), testing::HasSubstr(text));
+  };
+  shows("\"before\":\"page/before/e/q/seed1.png\"");
+  shows("\"stsim2\":0.98765");
+
+  // The earlier run is gone: its pictures that the page shows are not.
+  fs::rename(folder_ / "before", folder_ / "elsewhere");
+  EXPECT_EQ(run({"report", "now"}).exit_code, 0);
+  shows("\"before\":\"page/before/e/q/seed1.png\"");
+  fs::remove_all(folder_ / "now/page/before");
+  EXPECT_EQ(run({"report", "now"}).exit_code, 0);
+  shows("\"before\":null");
+  // What is there now is no longer what was compared.
+  fs::rename(folder_ / "elsewhere", folder_ / "before");
+  damage_picture("before/e/q/seed1.png");
+  EXPECT_EQ(run({"report", "now"}).exit_code, 0);
+  shows("\"before\":null");
+
+  // One of an older gramloom is read.
+  Json old = json;
+  old["version"] = 2;
+  old.erase("folder");
+  old.erase("jobs");
+  write_text(folder_ / "now/baseline.json", old.dump());
+  EXPECT_EQ(run({"report", "now"}).exit_code, 0);
+  shows("\"old\":true");
+
+  // Another run into the folder: the comparison no longer holds.
+  EXPECT_EQ(run({"run", "c.toml", "--quiet", "--output", "now", "--resume"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "now/baseline.json"));
+  shows("\"baseline\":null");
+}
+
 TEST_F(BaselineRun, ABaselineThatIsMissingOrBrokenIsFoundBeforeTheRun) {
   ASSERT_EQ(run({"run", "c.toml", "--quiet", "--output", "whole"}).exit_code, 0);
   const auto broken = [&](const std::string& name, const std::string& text) {

@@ -162,6 +162,34 @@ TEST_F(InferCommand, ATrainingMakesTheFramesThatInferMakes) {
   EXPECT_THAT(again.errors, HasSubstr("folds: trained before"));
   EXPECT_EQ(file(model_), bytes);
   expect_frames(5);
+
+  // A shorter one leaves none of the longer; what is not ours stays.
+  write_image(folder_ / "s/frame_0009.exr", Image(8, 8, 1), {});
+  write_text(folder_ / "s/frame_0008.txt", "mine");
+  config("pairs = 'pairs.csv'\npose = [0, 1]\nto = [30, -0.5]\nframes = 2\n");
+  ASSERT_EQ(run({"infer", model_, "--pose", "0,1", "--to", "30,-0.5", "--frames", "2", "--output",
+                 "s", "--quiet"})
+                .exit_code,
+            0);
+  EXPECT_EQ(train({"--resume", "--quiet"}).exit_code, 0);
+  expect_frames(2);
+  for (const std::string folder : {"o/models/folds_frames/", "s/"})
+    for (const char* frame : {"frame_0003.exr", "frame_0005.exr"})
+      EXPECT_FALSE(fs::exists(folder_ / (folder + frame))) << folder << frame;
+  EXPECT_TRUE(fs::exists(folder_ / "s/frame_0009.exr"));
+  EXPECT_TRUE(fs::exists(folder_ / "s/frame_0008.txt"));
+}
+
+TEST_F(InferCommand, ThePageShowsTheSequence) {
+  config("pairs = 'pairs.csv'\npose = [0, 1]\nto = [30, -0.5]\nframes = 3\n");
+  ASSERT_EQ(train({"--quiet"}).exit_code, 0);
+  EXPECT_THAT(file("o/index.html"), HasSubstr("models/folds_frames/frame_0003.exr"));
+  const Image last = read_image(folder_ / "o/page/models/folds_frames/frame_0003.exr.png").image;
+  const auto [low, high] = std::minmax_element(last.pixels.begin(), last.pixels.end());
+  EXPECT_GT(*high - *low, 0.5f) << "from the least to the largest value of all";
+  fs::remove(folder_ / "o/index.html");
+  EXPECT_EQ(run({"report", "o"}).exit_code, 0);
+  EXPECT_THAT(file("o/index.html"), HasSubstr("\"twist\":-0.5"));
 }
 
 TEST_F(InferCommand, ASequenceThatCannotBeIsRefusedBeforeTraining) {

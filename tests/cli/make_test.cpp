@@ -53,6 +53,40 @@ TEST_F(MakeCommand, SeveralPicturesAreOneMaterialAndMapsAreMadeToo) {
   EXPECT_EQ(file("made_height.png"), file("out/p/e/quilting/seed1_height.png"));
 }
 
+TEST_F(MakeCommand, FindsTheMapsBesideThePicture) {
+  const std::vector<std::string> words{"e.png", "--kind", "quilting",    "--size",
+                                       "24",    "--set",  "patch_size=8"};
+  write_image(folder_ / "e_height.png", Image(32, 32, 1, 0.5f), {});
+  write_image(folder_ / "e_Normal.png", Image(32, 32, 3, 0.5f), {});
+  write_image(folder_ / "e_other.png", Image(9, 9, 3, 0.5f), {});
+  expect_same_bytes(words, "e/quilting/seed1");
+  for (const std::string map : {"height", "normal"})
+    EXPECT_EQ(file("made_" + map + ".png"), file("out/p/e/quilting/seed1_" + map + ".png"));
+  EXPECT_FALSE(fs::exists(folder_ / "made_other.png"));
+  const auto config = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), words.begin(), words.end());
+    more.insert(more.begin(), "make");
+    more.push_back("--print-config");
+    return run(more);
+  };
+  EXPECT_THAT(config({}).output, HasSubstr("e_Normal.png"));
+  EXPECT_THAT(config({"--no-maps"}).output, testing::Not(HasSubstr("maps")));
+  const std::string given = config({"--map", "rough=e_height.png"}).output;
+  EXPECT_THAT(given, HasSubstr("\"rough\" = "));
+  EXPECT_THAT(given, testing::Not(HasSubstr("e_Normal.png"))) << "those that are named, alone";
+  write_image(folder_ / "e_rough.png", Image(9, 9, 1, 0.5f), {});
+  expect_refused("make", {"e.png", "--kind", "quilting", "--output", "x.png"},
+                 "e_rough.png has 9×9 pixels");
+  expect_refused("make", {"e.png", "--kind", "quilting", "--output", "x.png"}, "--no-maps");
+  fs::remove(folder_ / "e_rough.png");
+  EXPECT_EQ(config({"--no-maps", "--map", "rough=e_height.png"}).exit_code, 2);
+
+  std::vector<std::string> quick{"make", "--output", "n.png"};
+  quick.insert(quick.end(), words.begin(), words.end());
+  EXPECT_THAT(run(quick).errors,
+              HasSubstr("with the maps beside e.png: e_height.png, e_Normal.png"));
+}
+
 TEST_F(MakeCommand, ANameIsAProceduralTexture) {
   expect_same_bytes({"brick", "--size", "32", "--set", "scale=2"}, "procedural/brick/seed1");
   EXPECT_EQ(file("made_height.png"), file("out/p/procedural/brick/seed1_height.png"));

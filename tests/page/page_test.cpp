@@ -64,20 +64,6 @@ class Page : public RunInBrowser {
   static void open(Size window = desk, bool dark = false, const std::string& run = "out/c") {
     browser_->open(folder_ / run / "index.html", window, dark);
   }
-  static std::string text(const std::string& selector) {
-    return js("((e) => e.innerText ?? e.textContent)(document.querySelector(`" + selector + "`))");
-  }
-  static void click(const std::string& selector) {
-    js("document.querySelector(`" + selector + "`).click()");
-  }
-  static void wait() { js("new Promise((done) => setTimeout(done, 100))"); }
-  // Loads every picture, and counts those that show nothing.
-  static int pictures_missing() {
-    return js(
-        "Promise.all([...document.images].map((image) => { image.loading = 'eager';"
-        "  return image.decode().then(() => 0, () => 1); }))"
-        ".then((failed) => failed.reduce((a, b) => a + b, 0))");
-  }
 };
 
 TEST_F(Page, LoadsWithoutAWordOnTheConsoleAndWithEveryPicture) {

@@ -42,6 +42,20 @@ class RunInBrowser : public testing::Test {
   }
 
   static nlohmann::json js(const std::string& expression) { return browser_->evaluate(expression); }
+  static std::string text(const std::string& selector) {
+    return js("((e) => e.innerText ?? e.textContent)(document.querySelector(`" + selector + "`))");
+  }
+  static void click(const std::string& selector) {
+    js("document.querySelector(`" + selector + "`).click()");
+  }
+  static void wait() { js("new Promise((done) => setTimeout(done, 100))"); }
+  // Loads every picture, and counts those that show nothing.
+  static int pictures_missing() {
+    return js(
+        "Promise.all([...document.images].map((image) => { image.loading = 'eager';"
+        "  return image.decode().then(() => 0, () => 1); }))"
+        ".then((failed) => failed.reduce((a, b) => a + b, 0))");
+  }
   // Opens the picture of a job.
   static void enlarge(const std::string& job) {
     js("[...document.querySelectorAll('#rows button')].find((b) => b.dataset.id === " +

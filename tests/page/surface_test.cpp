@@ -98,7 +98,7 @@ class SurfacePage : public RunInBrowser {
 };
 
 TEST_F(SurfacePage, WhatIsDrawnChangesWithTheLightTheTurnAndEachMap) {
-  for (const std::string shape : {"b", "w"}) {
+  for (const std::string shape : {"o", "w"}) {
     enlarge("it's 100% #1");
     browser_->press(shape);
     EXPECT_GT(look().at("mean"), 8) << "something is seen";
@@ -125,13 +125,13 @@ TEST_F(SurfacePage, WhatIsDrawnChangesWithTheLightTheTurnAndEachMap) {
 
 TEST_F(SurfacePage, ColoursAloneAreLitToo) {
   enlarge("plain");
-  browser_->press("b");
+  browser_->press("o");
   EXPECT_GT(look().at("mean"), 8);
   EXPECT_EQ(js("document.querySelectorAll('#surface-controls [data-map]').length"), 0);
   EXPECT_EQ(js("document.getElementById('surface-depth')"), Json());
   js("moveLight(0.8, 0); paintSoon()");
   EXPECT_GT(change(), 0.5);
-  browser_->press("b");
+  browser_->press("o");
   EXPECT_EQ(js("document.querySelectorAll('#stage canvas').length"), 0) << "the picture again";
   EXPECT_GT(js("document.querySelectorAll('#stage img').length"), 0);
   EXPECT_THAT(problems(), IsEmpty());
@@ -139,7 +139,7 @@ TEST_F(SurfacePage, ColoursAloneAreLitToo) {
 
 TEST_F(SurfacePage, DraggingTurnsAndWithShiftMovesTheLight) {
   enlarge("plain");
-  browser_->press("b");
+  browser_->press("o");
   look();
   const auto drag = [](const std::string& shift) {
     js("(() => { const c = painter.canvas; c.setPointerCapture = () => {};"
@@ -167,7 +167,7 @@ TEST_F(SurfacePage, FitsAPhoneInTheDark) {
 
 TEST_F(SurfacePage, AnExemplarIsShownToo) {
   enlarge("it's 100% #1");
-  browser_->press("b");
+  browser_->press("o");
   look();
   browser_->press(" ");
   EXPECT_GT(change(), 0.01);
@@ -181,7 +181,7 @@ TEST_F(SurfacePage, WithoutWebGlThereIsALineThatSaysSo) {
   js("HTMLCanvasElement.prototype.getContext = () => null");
   js("[...document.querySelectorAll('#rows button')].find((b) => b.dataset.id === 'plain/q/seed1')"
      ".click()");
-  browser_->press("b");
+  browser_->press("o");
   js("new Promise((done) => setTimeout(done, 200))");
   EXPECT_THAT(js("document.getElementById('surface').textContent").get<std::string>(),
               HasSubstr("no WebGL 2"));
