@@ -232,7 +232,7 @@ Cost estimate(const MarkovParams& params, const RequestSize& request) {
       static_cast<double>(request.size.width + margin) * (request.size.height + margin);
   return {4 * channels * (in + out) + in * (9 + 3 * params.order) + (4 + sizeof(Source)) * out,
           {.serial = in * (1e-8 * params.order + 1e-9 * params.colours * channels) +
-                     out * 4e-8 * (1 + params.order)}};
+                     out * 5e-8 * (1 + params.order)}};
 }
 
 }  // namespace gramloom

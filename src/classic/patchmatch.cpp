@@ -179,8 +179,10 @@ Cost estimate(const PatchmatchParams& params, const RequestSize& request) {
   const double iterations = params.iterations * 4.0 / 3 + more_iterations * 4.0 / 9;
   // A field, its canvas and a coarser field; or, at the end, origins, sources and their picture.
   const double bytes_per_pixel = std::max(32.0, 12 + 4.0 * channels);
-  return {.bytes = pixels * bytes_per_pixel + samples * (48 + 4.0 * channels) + counts * 4,
-          .work = {.shared = pixels * iterations * (45 + 15.0 * params.tries) * 1e-9}};
+  return {
+      .bytes = pixels * bytes_per_pixel + samples * (48 + 4.0 * channels) + counts * 4,
+      .work = {.serial = 0.1,
+               .shared = pixels * iterations * (66 + 22.0 * params.tries) * 1e-9 + samples * 5e-7}};
 }
 
 }  // namespace gramloom

@@ -32,7 +32,7 @@ Cost estimate(const PhaseParams&, const RequestSize& request) {
   // Each channel in flight: its plane, spectrum and the transform's own copy; the phases are
   // shared.
   return {4 * channels * (in + out) + in_flight * 24 * out + 4 * out,
-          {.shared = exemplars * channels * 5e-8 * out}};
+          {.shared = exemplars * channels * 8e-8 * out}};
 }
 
 }  // namespace gramloom

@@ -84,22 +84,23 @@ Cost estimate(const PixelParams& params, const RequestSize& request) {
 
   Cost cost;
   // Levels, features and lists of like samples while they are made; canvases, colours and result.
-  cost.bytes = from * (8 * channels + 16 * compared + 64 + 20 * candidates + 8) +
-               to * (4 * channels + 4 * compared + 40 + sizeof(Source)) + 5e6;
+  cost.bytes = from * (6 * channels + 6 * compared + 38 + 20 * candidates) +
+               to * (4 * channels + 4 * compared + 6 + sizeof(Source)) + 5e6;
   // The joined picture, and known pixels, guides and weights on all levels.
   if (request.exemplars.size() > 1 || request.exemplars.front().mask)
     cost.bytes += from * 4 * channels;
   if (request.known) cost.bytes += to * (4 * channels + 8 * compared);
   if (request.guide || request.weights) cost.bytes += 32 * (from + to);
-  // Fitted to runs on two cores.
+  // Lists of like samples take more the more there are to look through.
+  const double lists = 1.4e-6 * candidates * from * std::pow(from / 65536, 0.3);
   const double made = to * request.made;
   const double trials = params.algorithm == PixelAlgorithm::lefebvre_hoppe ? params.passes : 1;
   if (params.search == PixelSearch::exact)
     cost.work.shared = trials * made * from * window * compared / 1e10;
   else if (params.algorithm == PixelAlgorithm::lefebvre_hoppe)
-    cost.work.shared = 1e-6 * candidates * from + 1.3e-7 * trials * candidates * made;
+    cost.work.shared = lists + 3.5e-7 * trials * candidates * made;
   else
-    cost.work.shared = 1e-6 * candidates * from + 6e-8 * window * candidates * made;
+    cost.work.shared = lists + 6e-8 * window * candidates * made;
   return cost;
 }
 

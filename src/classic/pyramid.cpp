@@ -187,7 +187,7 @@ Cost estimate(const PyramidParams& params, const RequestSize& request) {
   // what sorting needs 14.
   return {4 * channels * 2 * (in + out) + out * (8 + 2 * bands + 18 * in_flight) +
               (textures - 1) * 4 * channels * out,
-          {.shared = textures * channels * params.iterations * 3e-8 * bands * out}};
+          {.shared = textures * channels * params.iterations * 6e-8 * bands * out}};
 }
 
 }  // namespace gramloom

@@ -137,7 +137,7 @@ Cost estimate(const QuiltingParams& params, const RequestSize& request) {
                      sizeof(Source) * result + (8 + 4.0 * thread_count()) * pixels,
             .work = {.shared = patches *
                                (pixels * (8 + 0.25 * overlap * channels) * (1 + guide / 4) + cuts) *
-                               1e-9}};
+                               7e-10}};
   // Two-dimensional transforms: spectra, and for each patch their products and a transform back.
   if (guided || request.known) {
     const double planes = (request.known ? channels + 1 : 0) + (guided ? 4 : 0);

@@ -96,12 +96,12 @@ Cost cost_of_files(const Config& config, const ExemplarFacts& facts) {
   double in = 0;
   for (const ExemplarSize& exemplar : facts.request.exemplars)
     in += 1.0 * exemplar.size.width * exemplar.size.height * exemplar.channels;
-  constexpr int of_formulas = 4;  // colour and height
+  constexpr int of_formulas = 3;
   const int channels =
       facts.request.exemplars.empty() ? of_formulas : facts.request.exemplars.front().channels;
   const double pixels = 1.0 * config.size.width * config.size.height;
   return {std::max(18 * in, (13 * channels + 2) * pixels),
-          {.serial = 1.2e-7 * in + 7.5e-8 * pixels * channels}};
+          {.serial = 1.8e-7 * in + (8e-8 * channels + 3e-8) * pixels}};
 }
 
 // Of what a job makes of its texture: the file, the maps of its height, its preview.

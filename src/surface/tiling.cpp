@@ -32,10 +32,10 @@ Cost estimate(const TilingParams& params, const RequestSize& request) {
   const double out = static_cast<double>(request.size.width) * request.size.height;
   // Four copies, one sorted channel, and which pixels count.
   const double bytes_in = 4.0 * exemplar.channels * 4 + 40;
-  const double seconds_out = params.rotation > 0 ? 5e-7 : 1e-8;
+  const double seconds_out = params.rotation > 0 ? 5e-7 : 5e-8;
   return {
       in * bytes_in + 4 * exemplar.channels * out,
-      {.serial = 1e-7 * in * exemplar.channels, .shared = seconds_out * exemplar.channels * out}};
+      {.serial = 1.2e-7 * in * exemplar.channels, .shared = seconds_out * exemplar.channels * out}};
 }
 
 }  // namespace gramloom

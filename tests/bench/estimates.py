@@ -81,13 +81,14 @@ def compare(gramloom, folder, kind, keys, side, channels, size):
     checked = subprocess.run([gramloom, "check", config, "--json"], capture_output=True, text=True)
     if checked.returncode:
         return f"{kind}: {checked.stderr.strip()}"
-    expected = json.loads(checked.stdout)["jobs"][0]
+    checked = json.loads(checked.stdout)
+    memory_expected, time_expected = checked["jobs"][0]["memory"], checked["seconds"]
     memory, wall, cpu, errors = measured(gramloom, folder, config)
     if errors:
         return f"{kind}: {errors}"
     what = kind + (" " + " ".join(keys.split()) if keys else "")
-    return (f"{what:42} {side:5}² × {channels} {size:5}²  memory {memory / 1e6:7.0f} MB {memory / expected['memory']:5.2f}"
-            f"   time {wall:7.2f} s {wall / expected['seconds']:5.2f}   cpu {cpu:7.2f} s {cpu / expected['seconds']:5.2f}")
+    return (f"{what:42} {side:5}² × {channels} {size:5}²  memory {memory / 1e6:7.0f} MB {memory / memory_expected:5.2f}"
+            f"   time {wall:7.2f} s {wall / time_expected:5.2f}   cpu {cpu:7.2f} s {cpu / time_expected:5.2f}")
 
 
 def main():
