@@ -19,6 +19,18 @@ std::string top_lines(const Config& config) {
   return lines;
 }
 
+// The lines of a section that are not as they are without it: some of its keys need others.
+template <class Struct>
+std::string lines_that_say_more(const Struct& value) {
+  std::string lines;
+  for_each_field<Struct>([&](const auto& field) {
+    const std::string text = value_in_config(value.*field.member);
+    if (!text.empty() && text != value_in_config(Struct().*field.member))
+      lines += fmt::format("{} = {}\n", field.name, text);
+  });
+  return lines;
+}
+
 std::string section_of(const std::string& head, const std::string& lines) {
   return fmt::format("\n{}\n{}", head, lines);
 }
@@ -75,7 +87,7 @@ std::string method_section(const MethodEntry& entry) {
 std::string job_config(const Config& config, const Job& job) {
   std::string text = fmt::format("seeds = [{}]\n", job.seed) + top_lines(config);
   for_each_direction(config.direction, [&]<class Entry>(const std::optional<Entry>& entry) {
-    if (entry) text += section_of(fmt::format("[{}]", Entry::section), lines_in_config(*entry));
+    if (entry) text += section_of(fmt::format("[{}]", Entry::section), lines_that_say_more(*entry));
   });
   if (!maps_asked(config.surface).empty())
     text += section_of("[surface]", lines_in_config(config.surface));

@@ -35,10 +35,11 @@ class PickCommand : public Workspace {
 
 TEST_F(PickCommand, CopiesPicturesAndTheirMapsWithAConfigEach) {
   write_image(folder_ / "h.png", Image(32, 32, 1, 0.5f), {});
+  fs::copy_file(folder_ / "e.png", folder_ / "f.png");
   make_run(
       "seeds = [1, 2]\nsize = [40, 24]\ntile = 'x'\n[[exemplar]]\nname = \"it's 100% #1\"\n"
       "image = 'e.png'\nmax_side = 24\nmaps = { height = 'h.png', wet = { image = 'h.png', kind = "
-      "'scalar' } }\n[[exemplar]]\nname = 'f'\nimages = ['e.png', 'h.png']\n"
+      "'scalar' } }\n[[exemplar]]\nname = 'f'\nimages = ['e.png', 'f.png']\n"
       "[[method]]\nname = 'q'\nkind = 'quilting'\npatch_size = 8\n"
       "[[method]]\nname = 'n'\nkind = 'procedural'\ntexture = 'brick'\n"
       "[surface]\nnormal = true\n");
