@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "neural/gloo_group.h"
 #include "neural/synthesis.h"
 
 namespace gramloom {
@@ -10,13 +11,17 @@ namespace gramloom {
 /// presets, network descriptions, levels and costs.
 struct NeuralModule {
   static constexpr std::string_view name = "neural";
-  Texture (*synthesise)(const NeuralParams& params, const Request& request, const Control& control);
+  Texture (*synthesise)(const NeuralParams& params, const Request& request, const Control& control,
+                        const neural::Group& group);
+  std::shared_ptr<neural::Group> (*join_group)(const neural::GroupPlace& place);
   double (*blas_gigaflops)();
   double (*operations_per_second)();
 };
 
 namespace neural {
-Texture run_synthesis(const NeuralParams& params, const Request& request, const Control& control);
+/// In a group, the own rows of the texture.
+Texture run_synthesis(const NeuralParams& params, const Request& request, const Control& control,
+                      const Group& group);
 double measure_blas();
 double measure_operations();
 }  // namespace neural

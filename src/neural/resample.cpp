@@ -57,13 +57,15 @@ Taps make_taps(const Axis& axis, Kernel kernel) {
   const double width = reach / reach_of(1, 1, kernel);
   for (std::int64_t i = axis.rows.begin; i < axis.rows.end; ++i) {
     std::vector<Tap> row;
-    const double centre = centre_of(i, axis.from, axis.to);
+    // Beyond the edges of what wraps there are the same weights again, bit for bit.
+    const std::int64_t turn = axis.wraps ? floor_divided(i, axis.to) : 0;
+    const double centre = centre_of(i - turn * axis.to, axis.from, axis.to);
     double sum = 0;
     for (auto k = static_cast<std::int64_t>(std::ceil(centre - reach));
          k <= static_cast<std::int64_t>(std::floor(centre + reach)); ++k) {
       const double weight = kernel_value(kernel, (static_cast<double>(k) - centre) / width);
       if (weight == 0) continue;
-      row.push_back({axis.wraps ? held_copy(k, axis.held, axis.from)
+      row.push_back({axis.wraps ? held_copy(k + turn * axis.from, axis.held, axis.from)
                                 : std::clamp<std::int64_t>(k, 0, axis.from - 1) - axis.held.begin,
                      weight});
       sum += weight;
@@ -155,19 +157,36 @@ struct ResampleFunction : torch::autograd::Function<ResampleFunction> {
 
 at::Tensor resample(const at::Tensor& planes, Size size, Tile tile) {
   if (size_of(planes) == size) return planes.clone();
-  return ResampleFunction::apply(
-             planes.unsqueeze(3).contiguous(),
-             numbers_of(whole_axis(planes.size(1), size.height, tiles_y(tile)),
-                        whole_axis(planes.size(2), size.width, tiles_x(tile)), Kernel::cubic))
-      .squeeze(3);
+  return resample(all_rows(planes), size, {0, size.height}, tile).data;
 }
 
-Rows rows_to_shrink(Rows rows, std::int64_t height, std::int64_t own_height, Tile tile) {
-  const double reach = reach_of(height, own_height, Kernel::triangle);
+HeldRows resample(const HeldRows& picture, Size size, Rows rows, Tile tile) {
+  const Axis y{picture.height, size.height, tiles_y(tile), picture.rows, rows};
+  const Axis x = whole_axis(picture.data.size(2), size.width, tiles_x(tile));
+  const at::Tensor data = ResampleFunction::apply(picture.data.unsqueeze(3).contiguous(),
+                                                  numbers_of(y, x, Kernel::cubic));
+  return {data.squeeze(3), picture.channels, rows, size.height};
+}
+
+namespace {
+
+Rows rows_behind_kernel(Rows rows, std::int64_t height, std::int64_t own_height, Tile tile,
+                        Kernel kernel) {
+  const double reach = reach_of(height, own_height, kernel);
   const auto first = std::ceil(centre_of(rows.begin, height, own_height) - reach);
   const auto last = std::floor(centre_of(rows.end - 1, height, own_height) + reach);
   return rows_behind({static_cast<std::int64_t>(first), static_cast<std::int64_t>(last) + 1},
                      height, tiles_y(tile) ? Padding::circular : Padding::valid);
+}
+
+}  // namespace
+
+Rows rows_to_resample(Rows rows, std::int64_t height, std::int64_t own_height, Tile tile) {
+  return rows_behind_kernel(rows, height, own_height, tile, Kernel::cubic);
+}
+
+Rows rows_to_shrink(Rows rows, std::int64_t height, std::int64_t own_height, Tile tile) {
+  return rows_behind_kernel(rows, height, own_height, tile, Kernel::triangle);
 }
 
 HeldRows shrink(const HeldRows& maps, Size size, Rows rows, Tile tile) {

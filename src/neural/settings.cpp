@@ -73,6 +73,13 @@ Size canvas_size(const NeuralParams& params, const Target& target) {
   return size;
 }
 
+bool is_shared(const NeuralParams& params, Size level, int processes) {
+  constexpr int least_rows = 64;  // of a process: more than others look at
+  const int patch = *std::max_element(params.patch_sizes.begin(), params.patch_sizes.end());
+  return processes > 1 && level.height / processes >= std::max(least_rows, 2 * patch) &&
+         std::int64_t{level.width - patch + 1} * (level.height - patch + 1) > params.positions;
+}
+
 std::int64_t steps_down_to(const NeuralParams& params, int levels, int level) {
   std::int64_t steps = 0;
   for (int l = level; l < levels; ++l) {

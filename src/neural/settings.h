@@ -32,6 +32,10 @@ Size level_size(const NeuralParams& params, Size whole, int level);
 /// be cut off at the end. Pixels at an edge lie in few patches and stay rough. Not of a fill: of an
 /// exemplar that is the picture itself levels then have the same pixels.
 Size canvas_size(const NeuralParams& params, const Target& target);
+/// Whether several processes share the picture of a level, each its rows. A small one each makes
+/// alone, and so the same: of the others a step compares a random part of the patches
+/// (loss/sliced.h), which is the same however it is shared.
+bool is_shared(const NeuralParams& params, Size level, int processes);
 /// Steps of all levels but those finer than `level`.
 std::int64_t steps_down_to(const NeuralParams& params, int levels, int level);
 

@@ -27,6 +27,7 @@
 #include "neural/picture.h"
 #include "neural/resample.h"
 #include "neural/settings.h"
+#include "neural/shared_rows.h"
 #include "signal/histogram_match.h"
 #include "signal/layer_axes.h"
 
@@ -93,8 +94,9 @@ NeuralParams with_layout(NeuralParams params, const Exemplar& layered, const Req
 class Synthesis {
  public:
   Synthesis(const NeuralParams& params, const Request& request, const United& united,
-            const Control& control)
-      : params_(with_layout(params, united.exemplar(), request)),
+            const Control& control, const Group& group)
+      : group_(group),
+        params_(with_layout(params, united.exemplar(), request)),
         target_(request.target),
         random_(request.random),
         control_(control),
@@ -143,17 +145,33 @@ class Synthesis {
       state_.first_level = state_.level;
       state_.picture = at::Tensor();
     }
-    return cropped(state_.picture);
+    return cropped();
   }
 
   const ColourPca& colours() const { return colours_; }
 
  private:
-  // Stopped on a coarse level, the picture has that level's size.
-  at::Tensor cropped(const at::Tensor& picture) const {
-    const at::Tensor canvas = resample(picture, canvas_, target_.tile);
+  // Those who have the picture together.
+  const Group& holders() const { return shared_ ? group_ : one_process(); }
+  std::int64_t height() const { return shared_ ? height_ : state_.picture.size(1); }
+  HeldRows picture() const { return held_by(holders(), state_.picture, height()); }
+
+  // Rows of the picture at another size, after it was moved by (y, x) across edges that wrap.
+  at::Tensor resized(Size size, Rows rows, std::int64_t y = 0, std::int64_t x = 0) const {
+    const Rows from = rows_to_resample(rows, height(), size.height, target_.tile);
+    const RowExchange exchange(holders(), height(), {from.begin - y, from.end - y});
+    HeldRows taken = exchange.take(picture());
+    taken.rows = {taken.rows.begin + y, taken.rows.end + y};
+    if (x != 0) taken.data = at::roll(taken.data, x, 2);
+    return resample(taken, size, rows, target_.tile).data;
+  }
+
+  // The own rows of the texture. Stopped on a coarse level, the picture has that level's size.
+  at::Tensor cropped() const {
     const Size size = target_.size;
-    return canvas.narrow(1, (canvas_.height - size.height) / 2, size.height)
+    const std::int64_t margin = (canvas_.height - size.height) / 2;
+    const Rows own = own_rows(group_, size.height);
+    return resized(canvas_, {own.begin + margin, own.end + margin})
         .narrow(2, (canvas_.width - size.width) / 2, size.width)
         .contiguous();
   }
@@ -164,16 +182,18 @@ class Synthesis {
             tiles_y(target_.tile) ? Padding::circular : params_.padding};
   }
 
-  at::Tensor first_picture(Size size) const {
+  // The own rows of it.
+  at::Tensor first_picture(Size size, const Group& group) const {
+    const Rows own = own_rows(group, size.height);
     const int channels = colours_.channels;
     if (params_.start.empty()) {
       // In the exemplar's colours: a hue that it lacks would have to be taken out again. And with
       // the maps that go with them: this noise alone is along the axes of all layers together.
-      const at::Tensor white = white_noise(random_, channels, size).mul_(params_.noise);
+      const at::Tensor white = white_noise(random_, channels, size, own).mul_(params_.noise);
       return to_planes(whitened(unwhitened(to_image(white), principal_), colours_));
     }
     const Image image = read_start(params_, channels);
-    return resample(to_planes(whitened(image, colours_)), size, target_.tile);
+    return resample(all_rows(to_planes(whitened(image, colours_))), size, own, target_.tile).data;
   }
 
   // The level's layout by patch flow matching, from the coarser level's picture; false when the
@@ -211,20 +231,21 @@ class Synthesis {
     if (guidance_ && guidance_->directs()) return false;
     if (!params_.start.empty() || out_of_time()) return false;
     const at::Tensor exemplar = exemplar_of_level();
-    const Size own = size_of(state_.picture), size = size_of(exemplar);
-    return own.width >= size.width && own.height >= size.height &&
-           layout_copied(state_.picture, exemplar, target_.tile) > params_.copy_limit;
+    const Size own = picture().size(), size = size_of(exemplar);
+    if (own.width < size.width || own.height < size.height) return false;
+    const RowExchange all(holders(), height(), {0, height()});
+    return layout_copied(all.take(picture()).data, exemplar, target_.tile) > params_.copy_limit;
   }
 
   at::Tensor exemplar_of_level() const {
     return resample(exemplar_, level_size(params_, size_of(exemplar_), state_.level), Tile::none);
   }
 
-  // The picture of the coarser level. Values between pixels change fastest midway, where the edges
-  // always lie: from level to level this would add up to a seam. But what wraps has no edges, so
-  // they are elsewhere each time.
-  at::Tensor enlarged(Size size) const {
-    const Size old = size_of(state_.picture);
+  // The own rows of the coarser level's picture, made larger. Values between pixels change fastest
+  // midway, where the edges always lie: from level to level this would add up to a seam. But what
+  // wraps has no edges, so they are elsewhere each time.
+  at::Tensor enlarged(Size size, const Group& group) const {
+    const Size old = picture().size();
     Random random = random_.stream(std::uint64_t(Stream::edges))
                         .stream(static_cast<std::uint64_t>(state_.level));
     const auto edge = [&](bool wraps, int side) {
@@ -232,9 +253,9 @@ class Synthesis {
     };
     const std::int64_t y = edge(tiles_y(target_.tile), old.height);
     const std::int64_t x = edge(tiles_x(target_.tile), old.width);
-    const at::Tensor shifted = at::roll(state_.picture, {y, x}, {1, 2});
-    return at::roll(resample(shifted, size, target_.tile),
-                    {-y * size.height / old.height, -x * size.width / old.width}, {1, 2});
+    const Rows own = own_rows(group, size.height);
+    const std::int64_t down = y * size.height / old.height, right = x * size.width / old.width;
+    return at::roll(resized(size, {own.begin + down, own.end + down}, y, x), -right, 2);
   }
 
   // Optimises one level; false when the synthesis should stop.
@@ -252,10 +273,17 @@ class Synthesis {
     const Size size = flow_ ? size_of(state_.picture) : level_size(params_, canvas_, state_.level);
     const int iterations = at_level(params_.iterations, state_.level);
     const Optimizer kind = at_level(params_.optimizer, state_.level);
-    if (!state_.picture.defined())
-      state_.picture = first_picture(size);
-    else if (!flow_ && !resumed && !begins)
-      state_.picture = enlarged(size);
+    const bool shared = is_shared(params_, size, group_.size());
+    const Group& group = shared ? group_ : one_process();
+    if (!state_.picture.defined()) {
+      state_.picture = first_picture(size, group);
+    } else if (!flow_ && !resumed && !begins) {
+      // What each has made alone may differ in the last bits.
+      if (shared && !shared_) state_.picture = from_first(group_, state_.picture);
+      state_.picture = enlarged(size, group);
+    }
+    shared_ = shared;
+    height_ = size.height;
 
     if (state_.iteration >= iterations || out_of_time()) return true;
 
@@ -274,7 +302,7 @@ class Synthesis {
               {size, target_.tile}, edges(),
               random_.stream(std::uint64_t(Stream::loss))
                   .stream(static_cast<std::uint64_t>(state_.level)),
-              guidance ? &*guidance : nullptr, state_.nearest);
+              guidance ? &*guidance : nullptr, state_.nearest, group);
     // L-BFGS needs the same function at each step; Adam takes random ones.
     const Objective objective = [&](const at::Tensor& picture, at::Tensor& gradient) {
       const auto step = kind == Optimizer::adam ? state_.iteration : 0;
@@ -291,7 +319,7 @@ class Synthesis {
       return value;
     };
     AnyOptimiser optimiser = kind == Optimizer::lbfgs
-                                 ? AnyOptimiser(Lbfgs(params_.history))
+                                 ? AnyOptimiser(Lbfgs(params_.history, group))
                                  : AnyOptimiser(Adam(params_.learning_rate, iterations));
     return std::visit(
         [&](auto& method) {
@@ -320,7 +348,10 @@ class Synthesis {
   int largest_patch() const { return *std::ranges::max_element(params_.patch_sizes); }
 
   // Finer levels then only make the picture larger; something must have been done first.
-  bool out_of_time() const { return state_.evaluations > 0 && seconds() >= params_.stop_seconds; }
+  bool out_of_time() const {
+    if (state_.evaluations == 0 || std::isinf(params_.stop_seconds)) return false;
+    return group_.any(seconds() >= params_.stop_seconds);
+  }
 
   double seconds() const {
     return seconds_before_ + std::chrono::duration<double>(Clock::now() - start_).count();
@@ -334,7 +365,7 @@ class Synthesis {
     progress.evaluations = state_.evaluations;
     progress.loss = value;
     progress.terms = terms;
-    return control_.report(progress);
+    return !group_.any(!control_.report(progress));
   }
 
   // saved(): the optimiser's state.
@@ -347,6 +378,7 @@ class Synthesis {
     last_checkpoint_ = Clock::now();
   }
 
+  const Group& group_;
   const NeuralParams params_;
   const Target& target_;
   Random random_;
@@ -362,20 +394,23 @@ class Synthesis {
   std::optional<Network> network_;
   std::optional<MatchedNetwork> matched_;
   Checkpoint state_;
+  bool shared_ = false;      // whether state_.picture is the own rows of one that is
+  std::int64_t height_ = 0;  // so high
   double seconds_before_ = 0;
   Clock::time_point start_, last_checkpoint_;
 };
 
 }  // namespace
 
-Texture run_synthesis(const NeuralParams& asked, const Request& request, const Control& control) {
+Texture run_synthesis(const NeuralParams& asked, const Request& request, const Control& control,
+                      const Group& group) {
   const c10::NoGradGuard no_gradients;
   start_openmp();
   const NeuralParams params =
       directed_settings(asked, size_of(request), has_one_mix(request.target));
   const United united(request);
   const Exemplar& exemplar = united.exemplar();
-  Synthesis synthesis(params, request, united, control);
+  Synthesis synthesis(params, request, united, control, group);
   Texture texture;
   texture.image = unwhitened(to_image(synthesis.run()), synthesis.colours());
   const Image pixels = usable_pixels(exemplar.image, exemplar.mask);

@@ -34,7 +34,7 @@ std::vector<Rows> with_neighbours(const std::vector<Size>&, const std::vector<Ro
 
 PictureRows rows_of(const Network& network, const at::Tensor& picture, Edges edges,
                     std::int64_t at_once, RowsNeeded needed = own_alone) {
-  return {network, wanted, picture, edges, std::move(needed), at_once * width};
+  return {network, wanted, all_rows(picture), edges, std::move(needed), at_once * width};
 }
 
 std::vector<std::int64_t> all_splits() {

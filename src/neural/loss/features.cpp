@@ -23,14 +23,16 @@ std::vector<Rows> FeatureTerm::needed(const std::vector<Size>&, const std::vecto
 }
 
 Features::Features(const MatchedNetwork& network, std::vector<Weighted> terms, at::Tensor exemplar,
-                   Edges exemplar_edges, Edges edges, std::int64_t positions_at_once)
+                   Edges exemplar_edges, Edges edges, std::int64_t positions_at_once,
+                   const Group& group)
     : network_(network),
       terms_(std::move(terms)),
       all_(terms_.size(), true),
       exemplar_(std::move(exemplar)),
       exemplar_edges_(exemplar_edges),
       edges_(edges),
-      positions_at_once_(positions_at_once) {
+      positions_at_once_(positions_at_once),
+      group_(group) {
   for (const auto& layer : network.layers) wanted_.push_back(layer.index);
   for (const auto& [name, weight, term] : terms_) aim_anew_.push_back(term->aims_anew());
   look_at_exemplar(0, all_);
@@ -68,7 +70,23 @@ Features::Statistics Features::total(const PictureRows& rows, Edges edges, std::
   return whole;
 }
 
-PictureRows Features::rows_of(const at::Tensor& picture, Edges edges) const {
+Features::Statistics Features::summed(Statistics own) const {
+  if (group_.alone()) return own;
+  std::vector<at::Tensor> sums;
+  for (FeatureStatistics& statistics : own)
+    for (Moments& moments : statistics.moments) {
+      const auto copied = [&](at::Tensor& sum) {  // which may be part of a graph
+        sums.push_back(sum = sum.detach().clone(at::MemoryFormat::Contiguous));
+      };
+      copied(moments.gram);
+      copied(moments.mean);
+      for (auto& shifted : moments.shifted) copied(shifted.products);
+    }
+  sum_all(group_, sums);
+  return own;
+}
+
+PictureRows Features::rows_of(const HeldRows& picture, Edges edges, const Group& group) const {
   const auto needed = [this, edges](const std::vector<Size>& sizes, const std::vector<Rows>& own) {
     std::vector<Rows> result = own;
     for (const auto& [name, weight, term] : terms_) {
@@ -77,11 +95,12 @@ PictureRows Features::rows_of(const at::Tensor& picture, Edges edges) const {
     }
     return result;
   };
-  return {network_.network, wanted_, picture, edges, needed, positions_at_once_};
+  return {network_.network, wanted_, picture, edges, needed, positions_at_once_, group};
 }
 
 void Features::look_at_exemplar(std::uint64_t step, const std::vector<bool>& asked) {
-  Statistics goal = total(rows_of(exemplar_, exemplar_edges_), exemplar_edges_, step, asked);
+  Statistics goal = total(rows_of(all_rows(exemplar_), exemplar_edges_, one_process()),
+                          exemplar_edges_, step, asked);
   for (std::size_t t = 0; t < terms_.size(); ++t)
     if (asked[t]) terms_[t].term->aim_at(std::move(goal[t]));
   step_ = step;
@@ -101,27 +120,26 @@ Features::Statistics Features::compare(const Statistics& whole, std::vector<Term
   return slopes;
 }
 
-std::vector<Term> Features::add(const at::Tensor& picture, std::uint64_t step,
-                                at::Tensor& gradient) {
+std::vector<Term> Features::add(const HeldRows& picture, std::uint64_t step, at::Tensor& gradient) {
   if (step != step_ && std::count(aim_anew_.begin(), aim_anew_.end(), true) > 0)
     look_at_exemplar(step, aim_anew_);
   const c10::AutoGradMode gradients(true);
-  const PictureRows rows = rows_of(picture, edges_);
+  const PictureRows rows = rows_of(picture, edges_, group_);
   // First the statistics of all rows, then the gradient of each share. A single one is kept
   // between.
   std::optional<SeenRows> only;
   if (rows.shares() == 1) only = rows.see(0);
-  const Statistics whole =
+  const Statistics all =
       only ? statistics(*only, edges_, step, all_) : total(rows, edges_, step, all_);
   std::vector<Term> terms;
-  const Statistics slopes = compare(whole, terms);
+  const Statistics slopes = compare(summed(all), terms);
 
   std::vector<at::Tensor> of_scales = rows.zeros();
   std::vector<std::vector<std::int64_t>> seen(terms_.size());  // positions of the shares before
   for (std::size_t t = 0; t < terms_.size(); ++t) seen[t].resize(slopes[t].values.size());
   for (std::int64_t share = 0; share < rows.shares(); ++share) {
     const SeenRows now = only ? *only : rows.see(share);
-    const Statistics own = only ? whole : statistics(now, edges_, step, all_);
+    const Statistics own = only ? all : statistics(now, edges_, step, all_);
     std::vector<at::Tensor> outputs, upstream;
     const auto pull = [&](const at::Tensor& output, const at::Tensor& slope) {
       // No own row has a partner at that shift, or the exemplar is too small for it.

@@ -26,11 +26,15 @@ class Features {
   /// exemplar and of the result.
   Features(const MatchedNetwork& network, std::vector<Weighted> terms, at::Tensor exemplar,
            Edges exemplar_edges, Edges edges,
-           std::int64_t positions_at_once = most_positions_at_once);
+           std::int64_t positions_at_once = most_positions_at_once,
+           const Group& group = one_process());
 
-  /// The weighted terms of a picture by name and layer; adds their gradient. Random directions are
-  /// those of `step`.
-  std::vector<Term> add(const at::Tensor& picture, std::uint64_t step, at::Tensor& gradient);
+  /// The weighted terms of a picture, of which these rows are this process' own, by name and layer;
+  /// adds their gradient. Random directions are those of `step`.
+  std::vector<Term> add(const HeldRows& picture, std::uint64_t step, at::Tensor& gradient);
+  std::vector<Term> add(const at::Tensor& picture, std::uint64_t step, at::Tensor& gradient) {
+    return add(all_rows(picture), step, gradient);
+  }
 
  private:
   using Statistics = std::vector<FeatureStatistics>;  // of each term, or nothing for one
@@ -41,7 +45,9 @@ class Features {
   // Of all rows together, without gradients.
   Statistics total(const PictureRows& rows, Edges edges, std::uint64_t step,
                    const std::vector<bool>& asked) const;
-  PictureRows rows_of(const at::Tensor& picture, Edges edges) const;
+  // The statistics of all processes' rows.
+  Statistics summed(Statistics own) const;
+  PictureRows rows_of(const HeldRows& picture, Edges edges, const Group& group) const;
   // Their goals become those of that step.
   void look_at_exemplar(std::uint64_t step, const std::vector<bool>& asked);
   // The slopes of all terms along their statistics.
@@ -53,6 +59,7 @@ class Features {
   at::Tensor exemplar_;
   Edges exemplar_edges_, edges_;
   std::int64_t positions_at_once_;
+  const Group& group_;  // the picture is shared out; the exemplar each process has
   std::vector<std::size_t> wanted_;
   std::uint64_t step_ = 0;  // that the goals belong to
 };

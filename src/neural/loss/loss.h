@@ -15,10 +15,12 @@ class Loss {
   /// the result are what the network sees beyond them. `network` may be null when no term needs it.
   Loss(const NeuralParams& params, const MatchedNetwork* network, const at::Tensor& exemplar,
        Edges exemplar_edges, const Target& target, Edges edges, Random random,
-       const Guidance* guidance = nullptr, const at::Tensor& nearest = {});
+       const Guidance* guidance = nullptr, const at::Tensor& nearest = {},
+       const Group& group = one_process());
 
-  /// The loss of a picture (channels, height, width) and its gradient. Losses of one step are those
-  /// of one function; a step has random directions of its own.
+  /// The loss of a picture (channels, height, width), of which a process has its own rows, and the
+  /// gradient of these. Losses of one step are those of one function; a step has random directions
+  /// of its own.
   double operator()(const at::Tensor& picture, std::uint64_t step, at::Tensor& gradient);
   /// The weighted terms by name, of the last picture: those that look at a network first.
   const std::vector<Term>& terms() const { return terms_; }
@@ -30,6 +32,8 @@ class Loss {
     std::unique_ptr<PictureTerm> term;
   };
 
+  const Group& group_;
+  std::int64_t height_;  // of the whole picture
   std::optional<Features> features_;
   std::vector<Weighted> pictures_;
   std::vector<Term> terms_;

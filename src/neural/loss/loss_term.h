@@ -18,14 +18,16 @@ struct LossInput {
   Random random;
   const Guidance* guidance = nullptr;  // of this level; none: the exemplar as a whole
   at::Tensor nearest = {};             // of a fill: nearest_places() for the largest of patch_sizes
+  const Group& group = one_process();  // among which the result is shared out
 };
 
 /// A term of the loss that looks at the picture itself.
 class PictureTerm {
  public:
   virtual ~PictureTerm() = default;
-  /// Its value, unweighted, for a picture (channels, height, width); adds `weight` times its
-  /// gradient. `step` matters to those that draw random numbers.
+  /// Its value, unweighted, for a picture (channels, height, width), of which a process has its own
+  /// rows; adds `weight` times the gradient of these. `step` matters to those that draw random
+  /// numbers.
   virtual double add(const at::Tensor& picture, double weight, std::uint64_t step,
                      at::Tensor& gradient) const = 0;
 };

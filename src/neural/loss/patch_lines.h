@@ -15,9 +15,13 @@ struct PatchPositions {
   std::int64_t rows, columns;  // positions
 
   PatchPositions(const at::Tensor& picture, std::int64_t side_, Tile wraps)
-      : channels(picture.size(0)),
-        height(picture.size(1)),
-        width(picture.size(2)),
+      : PatchPositions(picture.size(0),
+                       {static_cast<int>(picture.size(2)), static_cast<int>(picture.size(1))},
+                       side_, wraps) {}
+  PatchPositions(std::int64_t channels_, Size size, std::int64_t side_, Tile wraps)
+      : channels(channels_),
+        height(size.height),
+        width(size.width),
         side(side_),
         rows(tiles_y(wraps) ? height : height - side + 1),
         columns(tiles_x(wraps) ? width : width - side + 1) {}

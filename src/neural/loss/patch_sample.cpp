@@ -27,6 +27,16 @@ PatchSample::PatchSample(const PatchPositions& positions, std::int64_t most, Ran
     }
 }
 
+PatchSample PatchSample::in_rows(std::int64_t begin, std::int64_t end) const {
+  PatchSample result;
+  for (const PatchRun& run : runs) {
+    if (run.y < begin || run.y >= end) continue;
+    result.runs.push_back({run.x, run.y - begin, run.length, result.count});
+    result.count += run.length;
+  }
+  return result;
+}
+
 at::Tensor project_sample(const at::Tensor& picture, const at::Tensor& filters, Tile wraps,
                           const PatchSample& sample) {
   const PatchPositions p(picture, filters.size(2), wraps);

@@ -24,6 +24,11 @@ struct PatchSample {
   /// About `most` of the positions, or all where they are fewer. The same `random` draws the same
   /// ones of pictures of one size.
   PatchSample(const PatchPositions& positions, std::int64_t most, Random random);
+  /// Those of it that lie in these rows, which are counted from the first of them.
+  PatchSample in_rows(std::int64_t begin, std::int64_t end) const;
+
+ private:
+  PatchSample() = default;
 };
 
 /// The patches of a sample of a picture's positions as numbers: their product with each of the

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <numeric>
 
 #include "core/simd.h"
 
@@ -13,11 +15,9 @@ namespace {
 constexpr int at_once = 256;  // values
 constexpr int lanes = 16;
 
-struct Range {
-  float low, high;
-};
+using Range = Potential::Range;
 
-GRAMLOOM_SIMD Range range_of(const float* values, std::size_t count) {
+GRAMLOOM_SIMD Range find_range(const float* values, std::size_t count) {
   float low[lanes], high[lanes];
   std::fill_n(low, lanes, values[0]);
   std::fill_n(high, lanes, values[0]);
@@ -53,49 +53,63 @@ GRAMLOOM_SIMD void look_up(float* values, std::size_t count, float low, float pe
     values[i] = weight * slopes[bin_of(values[i], low, per_bin)];
 }
 
-using Counts = std::array<std::int32_t, Potential::bins + 2>;
-
-void count(std::span<const float> values, float low, float per_bin, Counts& counts) {
-  std::int32_t bins[at_once];
-  Counts others{};  // neighbours are often alike: the next one need not wait for the last count
-  for (std::size_t first = 0; first < values.size(); first += at_once) {
-    const auto some = static_cast<int>(std::min<std::size_t>(at_once, values.size() - first));
-    find_bins(values.data() + first, some, low, per_bin, bins);
-    int i = 0;
-    for (; i + 1 < some; i += 2) {
-      ++counts[static_cast<std::size_t>(bins[i])];
-      ++others[static_cast<std::size_t>(bins[i + 1])];
-    }
-    if (i < some) ++counts[static_cast<std::size_t>(bins[i])];
-  }
-  for (std::size_t b = 0; b < counts.size(); ++b) counts[b] += others[b];
+// Bins per unit of a range that is one.
+float per_bin_of(Range range) {
+  const float width = (range.high - range.low) / Potential::bins;
+  return (1 - 1e-6f) / width;  // the highest value lies in the last bin
 }
 
 }  // namespace
 
+Range Potential::range_of(std::span<const float> values) {
+  if (values.empty())
+    return {std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
+  return find_range(values.data(), values.size());
+}
+
+Potential::Counts Potential::count(std::span<const float> values, Range range) {
+  std::array<std::int32_t, bins + 2> counts{}, others{};  // neighbours are often alike: the next
+  std::int32_t found[at_once];                            // one need not wait for the last count
+  const float per_bin = per_bin_of(range);
+  for (std::size_t first = 0; first < values.size(); first += at_once) {
+    const auto some = static_cast<int>(std::min<std::size_t>(at_once, values.size() - first));
+    find_bins(values.data() + first, some, range.low, per_bin, found);
+    int i = 0;
+    for (; i + 1 < some; i += 2) {
+      ++counts[static_cast<std::size_t>(found[i])];
+      ++others[static_cast<std::size_t>(found[i + 1])];
+    }
+    if (i < some) ++counts[static_cast<std::size_t>(found[i])];
+  }
+  Counts result;
+  for (std::size_t b = 0; b < bins; ++b) result[b] = counts[b + 1] + others[b + 1];
+  return result;
+}
+
 Potential::Potential(std::span<const float> values, std::span<const float> goal) {
-  const Range own = range_of(values.data(), values.size()),
-              wanted = range_of(goal.data(), goal.size());
-  low_ = std::min(own.low, wanted.low);
-  const float high = std::max(own.high, wanted.high);
-  if (!(high > low_)) return;  // all are equal
-  const float width = (high - low_) / bins;
-  per_bin_ = (1 - 1e-6f) / width;  // the highest value lies in the last bin
-  Counts of_values{}, of_goal{};
-  count(values, low_, per_bin_, of_values);
-  count(goal, low_, per_bin_, of_goal);
+  const Range own = range_of(values), wanted = range_of(goal);
+  const Range range{std::min(own.low, wanted.low), std::max(own.high, wanted.high)};
+  low_ = range.low;
+  if (range.high > range.low) *this = Potential(range, count(values, range), count(goal, range));
+}
+
+Potential::Potential(Range range, const Counts& values, const Counts& goal) : low_(range.low) {
+  if (!(range.high > range.low)) return;  // all are equal
+  per_bin_ = per_bin_of(range);
+  const float width = (range.high - range.low) / bins;
   // What part of the goal lies below a bin's ends, less that of the values: whole numbers, so that
   // equal samples have no slope. In between it is linear; the slope is its mean sign.
-  const auto scale = static_cast<double>(values.size()) * static_cast<double>(goal.size());
+  const std::int64_t size = std::accumulate(values.begin(), values.end(), std::int64_t{0}),
+                     goal_size = std::accumulate(goal.begin(), goal.end(), std::int64_t{0});
+  const auto scale = static_cast<double>(size) * static_cast<double>(goal_size);
   std::int64_t below = 0;
-  for (std::size_t b = 1; b <= bins; ++b) {
-    const std::int64_t next =
-        below + of_goal[b] * std::ssize(values) - of_values[b] * std::ssize(goal);
+  for (std::size_t b = 0; b < bins; ++b) {
+    const std::int64_t next = below + goal[b] * size - values[b] * goal_size;
     const double from = static_cast<double>(below) / scale, to = static_cast<double>(next) / scale;
     below = next;
     const double sizes = std::abs(from) + std::abs(to);
     if (sizes == 0) continue;
-    slopes_[b] = static_cast<float>((from + to) / sizes);
+    slopes_[b + 1] = static_cast<float>((from + to) / sizes);
     const double mean = (from * from + to * to + 2 * std::max(0.0, from * to)) / (2 * sizes);
     distance_ += mean * double{width};
   }

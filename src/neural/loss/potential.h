@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 
 namespace gramloom::neural {
@@ -16,8 +17,19 @@ class Potential {
  public:
   static constexpr int bins = 2048;
 
+  struct Range {
+    float low, high;
+  };
+  /// Of no values: nothing, as far as others are joined to it.
+  static Range range_of(std::span<const float> values);
+  /// How many values lie in each bin of a range that holds them all. Counts of parts add up.
+  using Counts = std::array<std::int32_t, bins>;
+  static Counts count(std::span<const float> values, Range range);
+
   Potential() = default;
   Potential(std::span<const float> values, std::span<const float> goal);
+  /// Of samples with these counts.
+  Potential(Range range, const Counts& values, const Counts& goal);
 
   double distance() const { return distance_; }
   /// Each value becomes `weight` times the slope there.

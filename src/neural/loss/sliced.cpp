@@ -24,16 +24,39 @@ void for_each_group(const at::Tensor& filters, std::int64_t at_once, F&& f) {
     f(filters.narrow(0, first, std::min(at_once, filters.size(0) - first)));
 }
 
-// Of each row.
-std::vector<Potential> potentials_of(const at::Tensor& values, const at::Tensor& goal) {
+// Of each row; the values are those of all processes together, the goal is the same in each.
+std::vector<Potential> potentials_of(const Group& group, const at::Tensor& values,
+                                     const at::Tensor& goal) {
   const auto row = [](const at::Tensor& rows, std::int64_t r) {
-    return std::span(rows.data_ptr<float>() + r * rows.size(1),
-                     static_cast<std::size_t>(rows.size(1)));
+    return std::span<const float>(rows.data_ptr<float>() + r * rows.size(1),
+                                  static_cast<std::size_t>(rows.size(1)));
   };
-  std::vector<Potential> potentials(static_cast<std::size_t>(values.size(0)));
-  parallel_for(values.size(0), 1, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t r = begin; r < end; ++r)
-      potentials[static_cast<std::size_t>(r)] = Potential(row(values, r), row(goal, r));
+  const std::int64_t count = values.size(0);
+  const auto for_each_row = [&](auto&& f) {
+    parallel_for(count, 1, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t r = begin; r < end; ++r) f(r, static_cast<std::size_t>(r));
+    });
+  };
+  const auto size = static_cast<std::size_t>(count);
+  std::vector<float> lows(size), highs(size);  // of low, the negative
+  for_each_row([&](std::int64_t r, std::size_t i) {
+    const Potential::Range own = Potential::range_of(row(values, r)),
+                           wanted = Potential::range_of(row(goal, r));
+    lows[i] = -std::min(own.low, wanted.low);
+    highs[i] = std::max(own.high, wanted.high);
+  });
+  group.largest(std::span(lows));
+  group.largest(std::span(highs));
+  const auto range = [&](std::size_t i) { return Potential::Range{-lows[i], highs[i]}; };
+  std::vector<Potential::Counts> counts(size);
+  for_each_row([&](std::int64_t r, std::size_t i) {
+    if (highs[i] > -lows[i]) counts[i] = Potential::count(row(values, r), range(i));
+  });
+  group.sum(std::span(counts.front().data(), size * Potential::bins));
+  std::vector<Potential> potentials(size);
+  for_each_row([&](std::int64_t r, std::size_t i) {
+    if (highs[i] > -lows[i])
+      potentials[i] = Potential(range(i), counts[i], Potential::count(row(goal, r), range(i)));
   });
   return potentials;
 }
@@ -43,6 +66,8 @@ class SlicedTerm : public PictureTerm {
   SlicedTerm(const SlicedParams& params, const LossInput& input)
       : exemplar_(input.exemplar),
         wraps_(input.target.tile),
+        size_(input.target.size),
+        group_(input.group),
         patch_sizes_(params.patch_sizes),
         positions_(params.positions),
         directions_(input.directions),
@@ -59,15 +84,15 @@ class SlicedTerm : public PictureTerm {
              at::Tensor& gradient) const override {
     if (flat_ == 0) {
       const at::Tensor off = picture - exemplar_.mean({1, 2}, true);
-      gradient.add_(off, weight * 2 / static_cast<double>(picture.numel()));
-      return off.square().mean().item<double>();
+      const auto values = static_cast<double>(picture.size(0) * pixels());
+      gradient.add_(off, weight * 2 / values);
+      return sum_of(group_, off.square().sum().item<double>()) / values;
     }
-    const std::int64_t at_once =
-        directions_at_once(std::max(pixels_of(picture), pixels_of(exemplar_)));
+    const std::int64_t at_once = directions_at_once(std::max(pixels(), pixels_of(exemplar_)));
     double sum = 0;
     for_each_group(filters(step), at_once, [&](const at::Tensor& some) {
       const double own = weight * static_cast<double>(some.size(0)) / directions_ / flat_;
-      const bool all = PatchPositions(picture, some.size(2), wraps_).count() <= positions_;
+      const bool all = positions(some.size(2)).count() <= positions_;
       const double distance = all ? add_all(picture, some, own, step, gradient)
                                   : add_sampled(picture, some, own, step, gradient);
       sum += distance * static_cast<double>(some.size(0));
@@ -76,6 +101,12 @@ class SlicedTerm : public PictureTerm {
   }
 
  private:
+  std::int64_t pixels() const { return std::int64_t{size_.width} * size_.height; }
+  // Of the whole picture.
+  PatchPositions positions(std::int64_t side) const {
+    return {exemplar_.size(0), size_, side, wraps_};
+  }
+
   // Few enough for the values of all positions, or of a sample of them.
   std::int64_t directions_at_once(std::int64_t pixels) const {
     return pixels > positions_ ? sampled_directions_at_once
@@ -90,19 +121,14 @@ class SlicedTerm : public PictureTerm {
         .view({directions_, channels, side, side});
   }
 
-  // The patches of the step's sample of a picture's positions along some directions.
-  at::Tensor sampled(const at::Tensor& picture, const at::Tensor& filters, Tile wraps,
-                     std::uint64_t step) const {
-    const PatchPositions all(picture, filters.size(2), wraps);
-    const PatchSample sample(all, positions_, random_.stream(step).stream(0));
-    return project_sample(picture, filters, wraps, sample);
-  }
-
-  // The exemplar's patches, all or of a sample.
+  // The exemplar's patches, all or of the step's sample.
   at::Tensor goal(const at::Tensor& filters, std::uint64_t step) const {
-    if (PatchPositions(exemplar_, filters.size(2), Tile::none).count() > positions_)
-      return sampled(exemplar_, filters, Tile::none, step);
-    return project_patches(exemplar_, filters, Tile::none);
+    const PatchPositions all(exemplar_, filters.size(2), Tile::none);
+    if (all.count() <= positions_) return project_patches(exemplar_, filters, Tile::none);
+    return project_sample(exemplar_, filters, Tile::none, sample_of(all, step));
+  }
+  PatchSample sample_of(const PatchPositions& all, std::uint64_t step) const {
+    return {all, positions_, random_.stream(step).stream(0)};
   }
 
   // The mean distance along some directions; adds `weight` times its gradient.
@@ -117,21 +143,29 @@ class SlicedTerm : public PictureTerm {
   }
 
   // The same, the distance that of a sample of the positions, and the gradient at all positions
-  // that of the sample's potential.
+  // that of the sample's potential. Patches that begin in a process' rows go on in those below.
   double add_sampled(const at::Tensor& picture, const at::Tensor& filters, double weight,
                      std::uint64_t step, at::Tensor& gradient) const {
+    const std::int64_t side = filters.size(2);
+    const PatchPositions all = positions(side);
+    const Rows own = own_rows(group_, size_.height);
+    const std::int64_t end = std::min(own.end, all.rows);  // of the positions
+    const RowExchange exchange(group_, size_.height, {own.begin, end + side - 1});
+    const at::Tensor seen = exchange.take(held_by(group_, picture, size_.height)).data;
+    const Tile wraps = group_.alone() ? wraps_ : wrapping(tiles_x(wraps_), false);
+    const PatchSample sample = sample_of(all, step).in_rows(own.begin, end);
     const auto potentials =
-        potentials_of(sampled(picture, filters, wraps_, step), goal(filters, step));
-    const auto positions =
-        static_cast<double>(PatchPositions(picture, filters.size(2), wraps_).count());
+        potentials_of(group_, project_sample(seen, filters, wraps, sample), goal(filters, step));
     const auto directions = static_cast<double>(filters.size(0));
-    const auto slope = static_cast<float>(weight / positions / directions);
+    const auto slope = static_cast<float>(weight / static_cast<double>(all.count()) / directions);
+    at::Tensor of_seen = group_.alone() ? gradient : at::zeros_like(seen);
     add_slopes(
-        picture, filters, wraps_,
+        seen, filters, wraps,
         [&](std::int64_t filter, std::span<float> products) {
           potentials[static_cast<std::size_t>(filter)].to_slopes(products, slope);
         },
-        gradient);
+        of_seen);
+    if (!group_.alone()) gradient.add_(exchange.give_back(of_seen));
     double sum = 0;
     for (const Potential& potential : potentials) sum += potential.distance();
     return sum / directions;
@@ -139,6 +173,8 @@ class SlicedTerm : public PictureTerm {
 
   at::Tensor exemplar_;
   Tile wraps_;  // the edges across which patches of the result go on; the exemplar's stay inside
+  Size size_;   // of the result
+  const Group& group_;
   std::vector<int> patch_sizes_;
   std::int64_t positions_;  // at most, whose patches are compared
   int directions_;

@@ -42,12 +42,6 @@ void crop_to_narrowest(std::vector<FeatureMaps>& parts) {
   for (auto& part : parts) part.data = part.data.narrow(2, (part.width() - width) / 2, width);
 }
 
-// The picture at half the size, rounded up; wrapped where it wraps.
-at::Tensor halved(const at::Tensor& planes, Edges edges) {
-  const auto half = [](std::int64_t side) { return static_cast<int>((side + 1) / 2); };
-  return resample(planes, {half(planes.size(2)), half(planes.size(1))}, wrapped_axes(edges));
-}
-
 // One over each filter's mean activation over all positions of all scales; 1 for dead filters.
 at::Tensor inverse_activation(const std::vector<HeldRows>& scales) {
   std::vector<at::Tensor> rows;
@@ -98,9 +92,17 @@ std::int64_t Network::radius(std::size_t layer) const {
 }
 
 std::vector<at::Tensor> Network::scales(const at::Tensor& picture, Edges edges) const {
-  std::vector<at::Tensor> result{picture};
-  if (is_pyramid(0))
-    while (result.size() < branches_[0].size()) result.push_back(halved(result.back(), edges));
+  std::vector<at::Tensor> result;
+  for (const Size size : scale_sizes(size_of(picture)))
+    result.push_back(result.empty() ? picture : resample(result.back(), size, wrapped_axes(edges)));
+  return result;
+}
+
+std::vector<Size> Network::scale_sizes(Size picture) const {
+  std::vector<Size> result{picture};
+  if (is_pyramid(0))  // half the size, rounded up
+    while (result.size() < branches_[0].size())
+      result.push_back({(result.back().width + 1) / 2, (result.back().height + 1) / 2});
   return result;
 }
 

@@ -50,8 +50,9 @@ class Network {
   // The same a few rows at a time: any rows of any layer can be had without the others.
 
   /// What the first layer looks at: the picture, or, for a pyramid, the picture at each of its
-  /// sizes. All other layers act on each of these scales alone.
+  /// sizes, resampled from one to the next. All other layers act on each of these scales alone.
   std::vector<at::Tensor> scales(const at::Tensor& picture, Edges edges) const;
+  std::vector<Size> scale_sizes(Size picture) const;
   /// The size of each layer's maps of a scale of that size. Throws Error when one would be empty.
   std::vector<Size> sizes(Size scale, Edges edges) const;
   /// The rows of such a scale that `rows` of the layers `wanted` are made of, one for each of them.

@@ -7,6 +7,7 @@
 #include "core/threads.h"
 #include "neural/openmp.h"
 #include "neural/optimise/line_search.h"
+#include "neural/shared_rows.h"
 
 namespace gramloom::neural {
 
@@ -16,11 +17,11 @@ namespace {
 constexpr std::int64_t large = 1 << 21;
 constexpr std::int64_t values_at_once = 1 << 14;
 
-double scalar_product(const at::Tensor& a, const at::Tensor& b) {
-  return at::dot(a.view(-1), b.view(-1)).item<double>();
-}
-
 }  // namespace
+
+double Lbfgs::scalar_product(const at::Tensor& a, const at::Tensor& b) const {
+  return sum_of(group_, at::dot(a.view(-1), b.view(-1)).item<double>());
+}
 
 at::Tensor Lbfgs::direction() const {
   // The two-loop recursion (Nocedal, Wright 2006, algorithm 7.4), started at −gradient.
@@ -64,8 +65,9 @@ double Lbfgs::step(at::Tensor& x, const Objective& objective) {
     converged_ = true;
     return value_;
   }
-  const double first =
-      pairs_.empty() ? std::min(1.0, 1 / gradient_.abs().sum().item<double>()) : 1.0;
+  const double first = pairs_.empty()
+                           ? std::min(1.0, 1 / sum_of(group_, gradient_.abs().sum().item<double>()))
+                           : 1.0;
   const at::Tensor origin = x.clone();
   at::Tensor gradient = at::empty_like(x);
   double last = 0;

@@ -8,6 +8,8 @@
 #include <string>
 #include <variant>
 
+#include "neural/group.h"
+
 namespace gramloom::neural {
 
 /// The loss at x, its gradient written to `gradient` (same shape as x).
@@ -27,7 +29,9 @@ struct SavedState {
 /// 1.01 to 1.7 times this one's loss on six problems), and saving its state failed with 1.13.
 class Lbfgs {
  public:
-  explicit Lbfgs(int history) : history_(history) {}
+  /// x is this process' part of a vector that a group has.
+  explicit Lbfgs(int history, const Group& group = one_process())
+      : history_(history), group_(group) {}
 
   /// One step, of one evaluation or a few more. Returns the loss after it. When no lower loss can
   /// be found along the gradient itself, x stays as it is and `converged` becomes true.
@@ -38,10 +42,12 @@ class Lbfgs {
   void load(const SavedState& state);
 
  private:
+  double scalar_product(const at::Tensor& a, const at::Tensor& b) const;
   at::Tensor direction() const;
   void remember(const at::Tensor& moved, const at::Tensor& gradient_change);
 
   int history_;
+  const Group& group_;
   bool converged_ = false;
   double value_ = 0;
   at::Tensor gradient_;
