@@ -12,7 +12,7 @@ int main(int count, char** arguments) try {
   const ImageFile exemplar = read_image(arguments[1]);
   const NeuralParams params = with_preset(Preset::fast);
   const Request request{.exemplars = {{exemplar.image}}, .target = {{128, 128}, Tile::both}};
-  std::printf("expected: %.0f s\n", estimate(params, size_of(request)).seconds);
+  std::printf("expected: %.0f s\n", seconds(estimate(params, size_of(request)).work));
 
   Control control;
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);

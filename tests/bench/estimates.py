@@ -34,7 +34,7 @@ METHODS = [
     ("pixel", "", 6e5),
     ("pixel", 'algorithm = "lefebvre_hoppe"', 6e5),
     ("generator", 'model = "pebbles"', 1e9),
-    ("neural", "", 3e5),
+    ("neural", "", 8e4),
     ("neural", 'preset = "fast"', 3e5),
     ("neural", 'preset = "gatys"\niterations = 20', 1e5),
 ]

@@ -159,15 +159,15 @@ TYPED_TEST(EveryTerm, CostsMoreForLargerPictures) {
 
 TYPED_TEST(EveryTerm, IsInTheEstimate) {
   NeuralParams params = only<TypeParam>(1);
-  const auto seconds = [&] {
+  const auto expected = [&] {
     const RequestSize request{
         .exemplars = {{{128, 128}, 3}}, .size = {256, 256}, .tile = Tile::both};
     return seconds(estimate(params, request).work);
   };
   params.iterations = {100};
-  const double some = seconds();
+  const double some = expected();
   params.iterations = {200};
-  EXPECT_GT(seconds(), 1.5 * some);
+  EXPECT_GT(expected(), 1.5 * some);
   EXPECT_EQ(needs_network(params), LooksAtNetwork<TypeParam>);
 }
 
