@@ -14,6 +14,7 @@
 #include "jobs/input_files.h"
 #include "jobs/interruption.h"
 #include "jobs/model_entries.h"
+#include "jobs/one_job.h"
 #include "jobs/output_guard.h"
 #include "jobs/progress_bar.h"
 #include "jobs/runner.h"
@@ -31,7 +32,9 @@ struct RunArguments {
   ConfigOptions config;
   SpreadOptions spread;
   CLI::Option* shard = nullptr;  // --shard, with or without a value
-  int worker = 0;                // the threads of a worker; 0: this is none
+  OneJobOptions together;
+  CLI::Option* one_job = nullptr;  // --one-job, with or without a value
+  int worker = 0;                  // the threads of a worker; 0: this is none
   std::string output;
   int threads = 0;
   bool resume = false;
@@ -97,6 +100,21 @@ void spread(const RunArguments& arguments, const Config& config, RunOptions& opt
                       config.file.string());
 }
 
+// Joins the processes that make each texture together with this one, if there are any. Throws
+// ConfigError for what they could not do.
+void join_others(const RunArguments& arguments, const Config& config, RunOptions& options) {
+  if (arguments.one_job->count() == 0) {
+    if (!arguments.together.meeting.empty()) throw ConfigError("--meet goes with --one-job");
+    return;
+  }
+  if (options.shard || options.jobs > 1)
+    throw ConfigError("--one-job: not with --shard or --jobs, which do several jobs at once");
+  const neural::GroupPlace place = group_place(arguments.together, options.output);
+  if (place.size == 1) return;
+  check_together(config, options.only, place.size);
+  options.group = join_group(place);
+}
+
 ExitCode run_config(const RunArguments& arguments) {
   keep_large_buffers();
   use_threads(arguments.worker > 0 ? arguments.worker : arguments.threads);
@@ -110,6 +128,11 @@ ExitCode run_config(const RunArguments& arguments) {
   if (arguments.worker > 0) {
     work_for_parent(config, options);
     return all_done;
+  }
+  join_others(arguments, config, options);
+  if (options.group && options.group->rank() > 0) {
+    work_for_first(config, options);
+    return stop_asked() ? interrupted : all_done;
   }
   const std::optional<Baseline> before = earlier_run(arguments, options);
   if (before) options.inputs = input_files(*before);
@@ -133,6 +156,21 @@ Command add_run(CLI::App& program, const std::vector<std::string>& words) {
       "as each job completes; with --resume, finished ones are kept.");
   add_config_options(*run, arguments->config);
   arguments->shard = add_spread_options(*run, arguments->spread);
+  arguments->one_job =
+      run->add_option("--one-job", arguments->together.process,
+                      "this is the K-th of N processes that make each texture together, each some "
+                      "of its rows; alone, in a step of Slurm (srun): as that says")
+          ->type_name("[K/N]")
+          ->expected(0, 1);
+  run->add_option("--meet", arguments->together.meeting,
+                  "with --one-job: where they meet, HOST:PORT of the first process (by hand "
+                  "127.0.0.1:29571), or a file in a folder that all of them see and that is not "
+                  "there yet (in Slurm, in the folder of the results)")
+      ->type_name("PLACE");
+  run->add_option("--patience", arguments->together.patience,
+                  "with --one-job: seconds until one that does not answer is given up (1800)")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(1, 1000000));
   run->add_option("--worker", arguments->worker)->group("");  // what --jobs starts
   run->add_option("--output", arguments->output, "folder of the results (out/<config's name>)")
       ->type_name("DIR");

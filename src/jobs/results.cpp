@@ -112,30 +112,44 @@ std::map<std::string, GreenAxis> normals_of(const OutputFormats& formats) {
   return normals;
 }
 
+std::string file_of_texture(const std::string& name, const std::string& map,
+                            const OutputFormat& format) {
+  return (map.empty() ? name : fmt::format("{}_{}", name, map)) + format.extension;
+}
+
+Metadata texture_metadata(const OutputFormat& format, const Json& settings,
+                          const Metadata& picture) {
+  Json made_by{{"gramloom", version()}};
+  made_by.update(settings);
+  Metadata metadata = format.green ? green_metadata(*format.green) : Metadata();
+  metadata.insert(picture.begin(), picture.end());
+  metadata["gramloom:settings"] = to_text(made_by, -1, true);
+  return metadata;
+}
+
+void add_notes(WrittenTexture& written, const std::string& file, const OutputFormat& format,
+               const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) written.notes.push_back(file + ": " + note);
+  if (format.low != 0 || format.high != 1)
+    written.notes.push_back(
+        fmt::format("{}: 0 stands for {:g} and 1 for {:g}", file, format.low, format.high));
+}
+
 WrittenTexture write_texture(const fs::path& folder, const std::string& name,
                              const Texture& texture, const OutputFormats& formats,
                              const Json& settings, const Metadata& picture) {
-  Json made_by{{"gramloom", version()}};
-  made_by.update(settings);
-  const std::string settings_text = to_text(made_by, -1, true);
-
   WrittenTexture written;
-  const auto write = [&](const std::string& stem, const Image& image, const OutputFormat& format) {
-    const std::string file = stem + format.extension;
-    Metadata metadata = format.green ? green_metadata(*format.green) : Metadata();
-    if (stem == name) metadata.insert(picture.begin(), picture.end());
-    metadata["gramloom:settings"] = settings_text;
-    auto notes = write_image(folder / file, image, format.encoding, metadata);
+  const auto write = [&](const std::string& map, const Image& image, const OutputFormat& format) {
+    const std::string file = file_of_texture(name, map, format);
     written.files.push_back(file);
-    for (const std::string& note : notes) written.notes.push_back(file + ": " + note);
-    if (format.low != 0 || format.high != 1)
-      written.notes.push_back(
-          fmt::format("{}: 0 stands for {:g} and 1 for {:g}", file, format.low, format.high));
+    add_notes(written, file, format,
+              write_image(folder / file, image, format.encoding,
+                          texture_metadata(format, settings, map.empty() ? picture : Metadata())));
   };
-  write(name, texture.image, formats.picture);
+  write("", texture.image, formats.picture);
   for (const auto& [map_name, map] : texture.maps) {
     const OutputFormat& format = formats.maps.at(map_name);
-    write(fmt::format("{}_{}", name, map_name), scaled(map, format), format);
+    write(map_name, scaled(map, format), format);
   }
   return written;
 }

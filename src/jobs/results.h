@@ -52,6 +52,16 @@ struct WrittenTexture {
   std::vector<std::string> notes;
 };
 
+/// The file of a texture's map; of the texture itself, which is no map, "".
+std::string file_of_texture(const std::string& name, const std::string& map,
+                            const OutputFormat& format);
+/// What is written into such a file; `picture`: what the picture that was filled had.
+Metadata texture_metadata(const OutputFormat& format, const Json& settings,
+                          const Metadata& picture);
+/// Where the file that was written last has other values.
+void add_notes(WrittenTexture& written, const std::string& file, const OutputFormat& format,
+               const std::vector<std::string>& notes);
+
 /// Writes a texture and its maps as `name` + extension and `name`_<map> + extension in `folder`.
 /// Their metadata is the settings, where normals' green points, what the `picture` that was filled
 /// had, and nothing that differs from run to run.

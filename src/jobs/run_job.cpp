@@ -8,9 +8,11 @@
 #include "jobs/loaded_request.h"
 #include "jobs/machine.h"
 #include "jobs/memory.h"
+#include "jobs/one_job.h"
 #include "jobs/results.h"
 #include "jobs/settings.h"
 #include "jobs/surface_maps.h"
+#include "jobs/tasks.h"
 #include "jobs/trace_log.h"
 #include "jobs/usable_part.h"
 #include "runs/job_files.h"
@@ -52,7 +54,12 @@ JobRecord new_record(Run& run, const Job& job) {
 
 void refuse_if_impossible(const Run& run, const PlannedJob& planned) {
   if (!planned.error.empty()) throw Error("{}", planned.error);
-  const std::string refusal = memory_refusal(run.config, run.plan, planned, available_memory());
+  const double available = available_memory();
+  if (const auto& group = run.options.group; group && planned.cost.bytes > available)
+    throw Error(
+        "needs about {:.1f} GB of memory in each of {} processes, {:.1f} GB are free: start more",
+        planned.cost.bytes / 1e9, group->size(), available / 1e9);
+  const std::string refusal = memory_refusal(run.config, run.plan, planned, available);
   if (!refusal.empty()) throw Error("{}", refusal);
 }
 
@@ -72,6 +79,12 @@ struct Made {
   bool stopped = false;
 };
 
+Image first_row(const Image& image) {
+  Image row(image.width, 1, image.channels);
+  std::copy_n(image.pixels.begin(), row.pixels.size(), row.pixels.begin());
+  return row;
+}
+
 // A method reads its files before its first report: what was hashed before is what it has read.
 void check_unchanged(Run& run, const JobWork& work) {
   if (method_hashes(work.method, run.hashes) != work.method_files)
@@ -79,11 +92,24 @@ void check_unchanged(Run& run, const JobWork& work) {
                 run.config.methods[work.planned.job.method].name);
 }
 
+// With the other processes of the group, of which this is the first.
+Made make_with_others(Run& run, const JobWork& work, const Control& control) {
+  const neural::Group& group = *run.options.group;
+  if (run.lost) throw Error("the {} processes have lost each other", group.size());
+  run.lost = true;  // unless all goes well, until the others' rows have come
+  say_next(group, number_of(run.plan, work.planned));
+  begin_together(group, work.identity);
+  OwnRows rows =
+      make_together(group, work.method, work.request, control, [&] { return run.stopped(); });
+  run.halted = rows.stopped;
+  return {{std::move(rows.image)}, rows.stopped};
+}
+
 Made make_texture(Run& run, const JobWork& work, TraceLog& trace) {
   Made made;
   bool checked = false;
   Control control;
-  control.checkpoint = work.files.checkpoint;
+  if (!run.options.group) control.checkpoint = work.files.checkpoint;
   control.identity = work.identity;
   control.progress = [&](const Progress& progress) {
     if (!std::exchange(checked, true)) check_unchanged(run, work);
@@ -95,7 +121,10 @@ Made make_texture(Run& run, const JobWork& work, TraceLog& trace) {
   };
   std::optional<NothingToKeep> scope;
   if (!std::holds_alternative<NeuralParams>(work.method)) scope.emplace();
-  made.texture = run_method(work.method, work.request, control);
+  if (run.options.group)
+    made = make_with_others(run, work, control);
+  else
+    made.texture = run_method(work.method, work.request, control);
   if (!checked) check_unchanged(run, work);
   return made;
 }
@@ -103,12 +132,18 @@ Made make_texture(Run& run, const JobWork& work, TraceLog& trace) {
 void write_results(Run& run, const JobWork& work, Texture joined, const TraceLog& trace,
                    JobRecord& record) {
   const JobFiles& files = work.files;
+  const neural::Group* group = run.options.group.get();
+  Image own_rows;
+  if (group) own_rows = std::exchange(joined.image, first_row(joined.image));
   Texture texture = split_layers(std::move(joined), run.files);
   record.notes = run.notes;
   add_surface_maps(texture, run.config, record.notes);
   const OutputFormats formats = output_formats(run.config, run.files, texture);
   const WrittenTexture written =
-      write_texture(files.folder, files.name, texture, formats, record.settings, run.metadata);
+      group ? write_together(*group, own_rows, run.config, run.files, files.folder, files.name,
+                             formats, record.settings, run.metadata)
+            : write_texture(files.folder, files.name, texture, formats, record.settings,
+                            run.metadata);
   record.files = written.files;
   record.normals = normals_of(formats);
   if (run.config.coordinates && run.source.empty())
@@ -160,12 +195,18 @@ void do_job(Run& run, const PlannedJob& planned, const JobFiles& files, bool kee
   run.source = std::move(made.texture.source);
   record.seconds = trace.seconds();
   record.peak_memory_mb = peak_memory() / 1e6;
-  if (made.stopped && keep_old) return;
+  const bool written = !made.stopped || !keep_old;
+  if (run.options.group) run.options.group->any(written);  // whether it wants the others' rows
+  if (!written) {
+    run.lost = false;
+    return;
+  }
   if (!made.stopped) {
     record.status = Status::done;
     record.error.clear();
   }
   write_results(run, work, std::move(made.texture), trace, record);
+  run.lost = false;
   if (!made.stopped) remove_unfinished_state(files);
 }
 
@@ -270,6 +311,24 @@ JobRecord fail_job(Run& run, const PlannedJob& planned, bool made, const std::st
     // The terminal says so.
   }
   return record;
+}
+
+OwnRows make_own_rows(Run& run, const PlannedJob& planned) {
+  const neural::Group& group = *run.options.group;
+  const JobFiles files = job_files(run.options.output, planned.name);
+  JobRecord record = new_record(run, planned.job);
+  std::optional<Work> work;
+  try {
+    refuse_if_impossible(run, planned);
+    work.emplace(begin_work(run, planned, files, record));
+  } catch (const std::exception&) {
+    say_unready(group);
+    throw;
+  }
+  begin_together(group, work->identity);
+  Control control;
+  control.progress = [&](const Progress&) { return !run.stopped(); };
+  return make_together(group, work->method, work->request, control, [&] { return run.stopped(); });
 }
 
 JobRecord run_job(Run& run, const PlannedJob& planned) {

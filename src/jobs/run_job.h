@@ -45,10 +45,13 @@ struct Run {
 
   PreviewEnvironment environment = {};  // of the previews
 
+  bool lost = false;    // of options.group: what they did together has failed, and they are apart
+  bool halted = false;  // one of it was told to stop
+
   const PlannedJob* made = nullptr;  // the last job whose texture was made, and
   SourceMap source = {};             // where the pixels of that came from
 
-  bool stopped() const { return options.stop && options.stop(); }
+  bool stopped() const { return halted || (options.stop && options.stop()); }
 };
 
 /// What the job asks of its method; its exemplar is read again when its files have changed. Throws
@@ -74,6 +77,10 @@ Control shown_work(Run& run);
 /// The record of a job whose process is gone, with why: written in place of the one that is there,
 /// or, of a texture that is `made` but not scored, as its score_error.
 JobRecord fail_job(Run& run, const PlannedJob& planned, bool made, const std::string& why);
+
+/// In a group, of all processes but the first: the own rows of the texture. Throws what goes wrong.
+struct OwnRows;
+OwnRows make_own_rows(Run& run, const PlannedJob& planned);
 
 /// Makes the job's texture. The record is returned when all files are on disk; what goes wrong is
 /// in it. A finished result stays as it is until the one that replaces it is complete, or has

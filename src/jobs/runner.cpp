@@ -5,6 +5,7 @@
 
 #include "jobs/folder_lock.h"
 #include "jobs/interruption.h"
+#include "jobs/one_job.h"
 #include "jobs/output_guard.h"
 #include "jobs/run_state.h"
 #include "jobs/side_by_side.h"
@@ -21,6 +22,7 @@ Plan look_ahead(const Config& config, const RunOptions& options) {
   const NothingToKeep scope;
   Plan plan = make_plan(config, options.only);
   if (options.shard) select_shard(plan, *options.shard);
+  if (options.group) estimate_together(config, plan, options.group->size());
   return plan;
 }
 
@@ -160,6 +162,7 @@ RunSummary run(const Config& config, const RunOptions& options, ProgressBar& bar
     do_side_by_side(state);
   else
     do_one_after_another(state, count);
+  if (options.group && !run.lost && !run.halted) say_next(*options.group, std::nullopt);
   or_complain(run, [&] { output.log->finish(); });
   summary.writes = output.log->writes();
   return summary;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,19 +11,21 @@
 #include "jobs/input_files.h"
 #include "jobs/progress_bar.h"
 #include "jobs/shard.h"
+#include "neural/group.h"
 
 namespace gramloom {
 
 struct RunOptions {
-  std::filesystem::path output;      // the folder of all results
-  std::string only;                  // pattern of the jobs to do; "": all
-  bool resume = false;               // keep finished jobs, go on with unfinished ones
-  std::function<bool()> stop;        // true once the user has asked to stop
-  std::vector<std::string> command;  // the command line, for run.json
-  std::optional<Shard> shard;        // this process does a part of the jobs, others do the rest
-  int jobs = 1;                      // so many at once, each in a process of its own
-  bool is_default_output = false;    // the user named no folder: it is for this config alone
-  std::vector<InputFile> inputs;     // that must stay as they are, beside those of the config
+  std::filesystem::path output;          // the folder of all results
+  std::string only;                      // pattern of the jobs to do; "": all
+  bool resume = false;                   // keep finished jobs, go on with unfinished ones
+  std::function<bool()> stop;            // true once the user has asked to stop
+  std::vector<std::string> command;      // the command line, for run.json
+  std::optional<Shard> shard;            // this process does a part of the jobs, others do the rest
+  int jobs = 1;                          // so many at once, each in a process of its own
+  std::shared_ptr<neural::Group> group;  // with these processes together; none: alone
+  bool is_default_output = false;        // the user named no folder: it is for this config alone
+  std::vector<InputFile> inputs;         // that must stay as they are, beside those of the config
 };
 
 /// Those of a run into `output`, or into the config's own folder where that is empty.
