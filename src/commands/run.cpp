@@ -112,7 +112,7 @@ void join_others(const RunArguments& arguments, const Config& config, RunOptions
   const neural::GroupPlace place = group_place(arguments.together, options.output);
   if (place.size == 1) return;
   check_together(config, options.only, place.size);
-  options.group = join_group(place);
+  options.group = gramloom::join_group(place);  // opens the neural module
 }
 
 ExitCode run_config(const RunArguments& arguments) {

@@ -317,7 +317,7 @@ OwnRows make_own_rows(Run& run, const PlannedJob& planned) {
   const neural::Group& group = *run.options.group;
   const JobFiles files = job_files(run.options.output, planned.name);
   JobRecord record = new_record(run, planned.job);
-  std::optional<Work> work;
+  std::optional<JobWork> work;
   try {
     refuse_if_impossible(run, planned);
     work.emplace(begin_work(run, planned, files, record));
