@@ -112,6 +112,8 @@ void join_others(const RunArguments& arguments, const Config& config, RunOptions
   const neural::GroupPlace place = group_place(arguments.together, options.output);
   if (place.size == 1) return;
   check_together(config, options.only, place.size);
+  create_folder(options.output);  // where they may meet
+  const NothingToKeep scope;
   options.group = gramloom::join_group(place);  // opens the neural module
 }
 
@@ -131,8 +133,7 @@ ExitCode run_config(const RunArguments& arguments) {
   }
   join_others(arguments, config, options);
   if (options.group && options.group->rank() > 0) {
-    work_for_first(config, options);
-    return stop_asked() ? interrupted : all_done;
+    return work_for_first(config, options) ? all_done : interrupted;
   }
   const std::optional<Baseline> before = earlier_run(arguments, options);
   if (before) options.inputs = input_files(*before);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <tuple>
 
@@ -10,9 +11,9 @@ namespace gramloom {
 /// What `check` says of a job, of the comparison of some, or of a model to train.
 struct Expectation {
   std::string name;
-  double memory = 0;    // bytes of the whole process
-  double seconds = 0;   // on this machine
-  std::string problem;  // what keeps it from being done; "": nothing
+  std::optional<double> memory;   // bytes of the whole process
+  std::optional<double> seconds;  // on this machine
+  std::string problem;            // what keeps it from being done; "": nothing
 
   static constexpr auto fields() {
     using E = Expectation;

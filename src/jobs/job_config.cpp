@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "jobs/settings.h"
 #include "jobs/written_config.h"
 
 namespace gramloom {
@@ -89,8 +90,7 @@ std::string job_config(const Config& config, const Job& job) {
   for_each_direction(config.direction, [&]<class Entry>(const std::optional<Entry>& entry) {
     if (entry) text += section_of(fmt::format("[{}]", Entry::section), lines_that_say_more(*entry));
   });
-  if (!maps_asked(config.surface).empty())
-    text += section_of("[surface]", lines_in_config(config.surface));
+  if (makes_maps(config, job)) text += section_of("[surface]", lines_in_config(config.surface));
   if (config.preview) text += section_of("[preview]", lines_in_config(*config.preview));
   if (const ExemplarEntry* exemplar = exemplar_of(config, job); exemplar && !exemplar->is_filled)
     text += exemplar_section(*exemplar);

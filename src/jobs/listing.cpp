@@ -95,7 +95,7 @@ struct Expectations {
   double seconds() const {
     double sum = 0.25;
     for (const auto* list : {&jobs, &diversities})
-      for (const Expectation& one : *list) sum += one.seconds;
+      for (const Expectation& one : *list) sum += one.seconds.value_or(0);
     return sum;
   }
 };
@@ -112,6 +112,10 @@ Expectations expectations_of(const Config& config, const Plan& plan) {
   Expectations expected;
   for (const PlannedJob& planned : plan.jobs) {
     if (!planned.selected) continue;
+    if (!planned.error.empty()) {
+      expected.jobs.push_back({planned.name, {}, {}, problem_of(config, plan, planned, available)});
+      continue;
+    }
     expected.jobs.push_back(
         {planned.name,
          program_memory(config.methods[planned.job.method].method) +
@@ -238,8 +242,8 @@ std::string job_table(const Config& config, const Plan& plan) {
   std::vector<Row> rows{{"job", "memory", "time", ""}};
   const auto add = [&](const std::vector<Expectation>& list, const std::string& what) {
     for (const Expectation& one : list) {
-      rows.push_back(
-          {one.name + what, memory_text(one.memory), clock_text(one.seconds), one.problem});
+      rows.push_back({one.name + what, one.memory ? memory_text(*one.memory) : "",
+                      one.seconds ? clock_text(*one.seconds) : "", one.problem});
     }
   };
   add(expected.jobs, "");
@@ -253,9 +257,8 @@ std::string lesson_table(const std::vector<Expectation>& lessons) {
   if (lessons.empty()) return "";
   std::vector<Row> rows{{"model to train", "memory", "time", ""}};
   for (const Expectation& lesson : lessons) {
-    const bool known = lesson.memory > 0;
-    rows.push_back({lesson.name, known ? memory_text(lesson.memory) : "",
-                    known ? clock_text(lesson.seconds) : "", lesson.problem});
+    rows.push_back({lesson.name, lesson.memory ? memory_text(*lesson.memory) : "",
+                    lesson.seconds ? clock_text(*lesson.seconds) : "", lesson.problem});
   }
   return text_table(rows, "") + "\n";
 }

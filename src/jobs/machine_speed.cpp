@@ -1,5 +1,7 @@
 #include "jobs/machine_speed.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -46,7 +48,9 @@ fs::path cache_file() {
 std::optional<SpeedRecord> kept_speed(const fs::path& file) {
   try {
     SpeedRecord record = from_json_value<SpeedRecord>(read_json(file), JsonPlace{file.string()});
-    if (record.version == version() && record.machine == machine()) return record;
+    if (record.version == version() && record.machine == machine() && record.serial > 0 &&
+        record.shared > 0)
+      return record;
   } catch (const Error&) {
   }
   return std::nullopt;
@@ -62,11 +66,24 @@ void keep_speed(const fs::path& file, const SpeedRecord& record) {
   }
 }
 
-double measure_operations(double shared) {
+bool is_old(const fs::path& file) {
+  std::error_code none;
+  const auto written = fs::last_write_time(file, none);
+  return none || fs::file_time_type::clock::now() - written > std::chrono::hours(24);
+}
+
+void measure(SpeedRecord& record) {
+  const Speed speed = measure_speed();
+  record.serial = std::max(record.serial, speed.serial);
+  record.shared = std::max(record.shared, speed.shared);
+}
+
+// 0 where the neural part is not installed.
+double measure_operations() {
   try {
     return operations_per_second();
   } catch (const Error&) {
-    return Speed{}.operations * shared / Speed{}.shared;
+    return 0;
   }
 }
 
@@ -74,18 +91,15 @@ double measure_operations(double shared) {
 
 Speed machine_speed(bool with_operations) {
   const fs::path file = cache_file();
-  SpeedRecord record = kept_speed(file).value_or(SpeedRecord{std::string(version()), machine()});
-  const bool lacks_speed = record.serial <= 0 || record.shared <= 0;
-  const bool lacks_operations = with_operations && record.operations <= 0;
-  if (lacks_speed) {
-    const Speed speed = measure_speed();
-    record.serial = speed.serial;
-    record.shared = speed.shared;
-  }
-  if (lacks_operations) record.operations = measure_operations(record.shared);
-  if (lacks_speed || lacks_operations) keep_speed(file, record);
-  return {record.serial, record.shared,
-          record.operations > 0 ? record.operations : Speed{}.operations};
+  const std::optional<SpeedRecord> kept = kept_speed(file);
+  SpeedRecord record = kept.value_or(SpeedRecord{std::string(version()), machine()});
+  const bool anew = !kept || is_old(file);
+  if (anew) measure(record);
+  if (with_operations && (anew || record.operations <= 0))
+    record.operations = std::max(record.operations, measure_operations());
+  if (anew || !kept || record.operations != kept->operations) keep_speed(file, record);
+  const double as_all_else = Speed{}.operations * record.shared / Speed{}.shared;
+  return {record.serial, record.shared, record.operations > 0 ? record.operations : as_all_else};
 }
 
 }  // namespace gramloom

@@ -106,10 +106,10 @@ neural::GroupPlace group_place(const OneJobOptions& asked, const fs::path& outpu
   place.patience = std::chrono::seconds(asked.patience);
   place.meeting = asked.meeting.empty() ? usual_meeting : asked.meeting;
   if (by_slurm && asked.meeting.empty()) {  // on any machines, and a name that no other step has
-    create_folder(output);
-    place.meeting = (output / fmt::format("one_job.{}.{}", environment("SLURM_JOB_ID"),
-                                          environment("SLURM_STEP_ID")))
-                        .string();
+    place.meeting =
+        (output / fmt::format("one_job.{}.{}.{}", environment("SLURM_JOB_ID"),
+                              environment("SLURM_STEP_ID"), environment("SLURM_RESTART_COUNT")))
+            .string();
   }
   return place;
 }
@@ -132,9 +132,11 @@ void check_together(const Config& config, const std::string& only, int processes
 
 void estimate_together(const Config& config, Plan& plan, int processes) {
   for (PlannedJob& planned : plan.jobs)
-    if (planned.selected && planned.error.empty())
+    if (planned.selected && planned.error.empty()) {
       planned.cost = estimate_share(neural_params(config, planned.job),
                                     request_of_job(config, plan, planned.job), processes);
+      planned.finishing.bytes = 0;  // some rows at a time
+    }
 }
 
 void say_next(const neural::Group& group, std::optional<int> job) {
@@ -184,7 +186,7 @@ WrittenTexture write_together(const neural::Group& group, const Image& own, cons
   return writer.finish();
 }
 
-void work_for_first(const Config& config, const RunOptions& options) {
+bool work_for_first(const Config& config, const RunOptions& options) {
   const neural::Group& group = *options.group;
   ProgressBar bar(ProgressStyle::quiet);
   Plan plan = make_plan(config, options.only);
@@ -193,10 +195,14 @@ void work_for_first(const Config& config, const RunOptions& options) {
   for (;;) {
     std::int32_t number = 0;
     group.first(std::span(&number, 1));
-    if (number < 0) return;
-    OwnRows rows = make_own_rows(run, plan.jobs.at(static_cast<std::size_t>(number)));
+    if (number < 0) return true;
+    if (static_cast<std::size_t>(number) >= plan.jobs.size()) {
+      say_unready(group);
+      throw Error("{}: process 1 has more jobs: their configs differ", config.file.string());
+    }
+    OwnRows rows = make_own_rows(run, plan.jobs[static_cast<std::size_t>(number)]);
     if (group.any(false)) send_rows(group, std::move(rows.image));  // the first wants them
-    if (rows.stopped) return;
+    if (rows.stopped) return false;
   }
 }
 

@@ -33,7 +33,7 @@ void estimate_together(const Config& config, Plan& plan, int processes);
 
 /// Does the work of all processes but the first, until that has no more. Throws
 /// neural::GroupLost when it, or another one, is gone.
-void work_for_first(const Config& config, const RunOptions& options);
+bool work_for_first(const Config& config, const RunOptions& options);
 
 // Of process 1:
 

@@ -7,8 +7,10 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "io/json_fields.h"
 #include "io/text_file.h"
+#include "jobs/inputs.h"
 #include "jobs/job_config.h"
 #include "jobs/machine.h"
 #include "jobs/marked_folder.h"
@@ -152,12 +154,19 @@ class Origin {
   FileHashes hashes_;
 };
 
+// Of the program that made it.
+std::string version_of(const JobRecord& record) {
+  for (const auto& [name, version] : record.versions)
+    if (name == "gramloom") return version;
+  return "of an unknown version";
+}
+
 // What the config's reader is told first. Neural results depend on the threads.
 std::string head_of(const fs::path& config, const JobOnDisk& job) {
   const JobRecord& record = job.record;
   const bool threads = record.kind == NeuralParams::kind && record.machine.threads > 0;
   return fmt::format("# {}, made by gramloom {}. Again: gramloom run {}{}\n", valid_utf8(job.name),
-                     version(), valid_utf8(config.filename().string()),
+                     version_of(record), valid_utf8(config.filename().string()),
                      threads ? fmt::format(" --threads {}", record.machine.threads) : "");
 }
 
@@ -185,18 +194,55 @@ std::vector<Pick> picks_of(const PickWork& work) {
   }
 }
 
+// Files of the folder and their hashes.
+using Hashes = std::map<std::string, std::string>;
+
 // The files that an earlier pick has left there, by its own list.
-std::vector<std::string> earlier_files(const fs::path& output) {
-  std::vector<std::string> files;
+Hashes earlier_files(const fs::path& output) {
+  Hashes files;
   try {
-    for (const auto& file : read_json(output / mark).at("files")) {
-      const fs::path path = fs::path(file.get<std::string>()).lexically_normal();
+    const Json list = read_json(output / mark);
+    for (const auto& [file, hash] : list.at("files").items()) {
+      const fs::path path = fs::path(file).lexically_normal();
       if (path.is_relative() && !path.empty() && *path.begin() != "..")
-        files.push_back(path.generic_string());
+        files.emplace(path.generic_string(), hash.get<std::string>());
     }
   } catch (const std::exception&) {  // there is none, or it was changed: all stays
   }
   return files;
+}
+
+// What is to be in the folder. Its files' texts are not kept: pictures may be many.
+Hashes hashes_of(const PickWork& work, const std::vector<Pick>& picks) {
+  Hashes hashes;
+  for (const Pick& pick : picks) {
+    for (const std::string& file : pick.files)
+      hashes.emplace(fs::path(file).generic_string(), file_hash(work.run / file));
+    hashes.emplace(pick.job + ".toml", hash_of(pick.config));
+  }
+  return hashes;
+}
+
+// Whether a file is as the earlier pick left it. Without that it is the user's.
+bool is_as_left(const fs::path& output, const Hashes& before, const std::string& file) {
+  const auto found = before.find(file);
+  return found != before.end() && file_hash(output / file) == found->second;
+}
+
+void refuse_what_is_not_ours(const PickWork& work, const Hashes& before, const Hashes& after) {
+  for (const auto& [file, hash] : after)
+    if (fs::exists(work.output / file) && !is_as_left(work.output, before, file) &&
+        file_hash(work.output / file) != hash)
+      throw ConfigError(
+          "pick {}: --output {}: {} was not made by an earlier pick, or changed since; "
+          "choose another folder",
+          work.run.string(), work.output.string(), file);
+}
+
+void write_mark(const PickWork& work, const Hashes& files) {
+  const Json list{
+      {"gramloom", version()}, {"run", fs::absolute(work.run).generic_string()}, {"files", files}};
+  write_text(work.output / mark, to_text(list, 2) + "\n");
 }
 
 }  // namespace
@@ -204,14 +250,12 @@ std::vector<std::string> earlier_files(const fs::path& output) {
 std::vector<fs::path> pick_results(const PickWork& work) {
   const std::vector<Pick> picks = picks_of(work);
   check_marked_folder({"pick", work.run, work.output, mark});
-  const std::vector<std::string> before = earlier_files(work.output);
+  const Hashes before = earlier_files(work.output), after = hashes_of(work, picks);
+  refuse_what_is_not_ours(work, before, after);
   create_folder(work.output);
-  Json list{{"gramloom", version()}, {"run", fs::absolute(work.run).generic_string()}};
-  for (const Pick& pick : picks) {
-    for (const std::string& file : pick.files) list["files"].push_back(file);
-    list["files"].push_back(pick.job + ".toml");
-  }
-  write_text(work.output / mark, to_text(list, 2) + "\n");
+  Hashes both = after;
+  both.insert(before.begin(), before.end());
+  write_mark(work, both);  // so that nothing is forgotten when this is interrupted
   std::vector<fs::path> textures;
   for (const Pick& pick : picks) {
     create_folder((work.output / pick.job).parent_path());
@@ -220,9 +264,11 @@ std::vector<fs::path> pick_results(const PickWork& work) {
     write_text(work.output / (pick.job + ".toml"), pick.config);
     textures.push_back(work.output / pick.files.front());
   }
-  for (const std::string& file : before)
-    if (std::ranges::find(list["files"], Json(file)) == list["files"].end())
+  for (const auto& [file, hash] : before)
+    if (!after.contains(file) && fs::exists(work.output / file) &&
+        is_as_left(work.output, before, file))
       remove_file(work.output / file);
+  write_mark(work, after);
   return textures;
 }
 

@@ -9,6 +9,7 @@
 #include "jobs/loaded_request.h"
 #include "jobs/pattern.h"
 #include "jobs/results.h"
+#include "jobs/settings.h"
 #include "metrics/scores.h"
 #include "surface/preview.h"
 
@@ -107,9 +108,7 @@ Cost cost_of_files(const Config& config, const ExemplarFacts& facts) {
 // Of what a job makes of its texture: the file, the maps of its height, its preview.
 Cost cost_of_finishing(const Config& config, const ExemplarFacts& facts, const Job& job) {
   Cost cost = cost_of_files(config, facts);
-  const bool has_height =
-      !job.exemplar || !height_among(config.exemplars[*job.exemplar].maps, config.surface).empty();
-  if (has_height && !maps_asked(config.surface).empty())
+  if (makes_maps(config, job))
     cost = one_after_the_other(cost, estimate_maps(config.surface, config.size));
   if (config.preview)
     cost = one_after_the_other(cost, estimate_preview(*config.preview, config.size));

@@ -95,7 +95,6 @@ void check_unchanged(Run& run, const JobWork& work) {
 // With the other processes of the group, of which this is the first.
 Made make_with_others(Run& run, const JobWork& work, const Control& control) {
   const neural::Group& group = *run.options.group;
-  if (run.lost) throw Error("the {} processes have lost each other", group.size());
   run.lost = true;  // unless all goes well, until the others' rows have come
   say_next(group, number_of(run.plan, work.planned));
   begin_together(group, work.identity);

@@ -112,7 +112,7 @@ void do_one_after_another(RunState& state, std::size_t count) {
     for (const PlannedJob* planned : group) {
       if (!planned->selected) continue;
       ++number;
-      if (run.stopped()) {
+      if (run.stopped() || run.lost) {
         ++state.summary.left;
         continue;
       }
@@ -162,8 +162,9 @@ RunSummary run(const Config& config, const RunOptions& options, ProgressBar& bar
     do_side_by_side(state);
   else
     do_one_after_another(state, count);
-  if (options.group && !run.lost && !run.halted) say_next(*options.group, std::nullopt);
   or_complain(run, [&] { output.log->finish(); });
+  if (options.group && !run.lost && !run.halted)
+    or_complain(run, [&] { say_next(*options.group, std::nullopt); });
   summary.writes = output.log->writes();
   return summary;
 }

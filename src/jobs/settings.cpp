@@ -2,6 +2,7 @@
 
 #include "io/field_values.h"
 #include "jobs/job_preview.h"
+#include "surface/maps.h"
 
 namespace gramloom {
 
@@ -103,13 +104,19 @@ Json job_settings(const Config& config, const Job& job, const InputHashes& input
   settings["format"] = value_to_json(config.format, {});
   settings["pixel_type"] = value_to_json(config.pixel_type, {});
   if (config.coordinates) settings["coordinates"] = true;
-  if (!maps_asked(config.surface).empty()) settings["surface"] = fields_to_json(config.surface, {});
+  if (makes_maps(config, job)) settings["surface"] = fields_to_json(config.surface, {});
   if (config.preview) {
     settings["preview"] = fields_to_json(*config.preview, config.file.parent_path());
     if (!inputs.preview.empty()) settings["preview"]["files"] = to_json_value(inputs.preview);
   }
   // As a record will hold it: a name may have bytes that are no UTF-8.
   return parse_json(to_text(settings));
+}
+
+bool makes_maps(const Config& config, const Job& job) {
+  if (maps_asked(config.surface).empty()) return false;
+  return !job.exemplar ||
+         !height_among(config.exemplars[*job.exemplar].maps, config.surface).empty();
 }
 
 InputHashes input_hashes(const Config& config, const Job& job, FileHashes& hashes) {

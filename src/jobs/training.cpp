@@ -109,17 +109,19 @@ std::vector<Lesson> lessons_of(const Config& config, const std::string& only) {
 std::vector<Expectation> expected_lessons(const Config& config, const std::string& only) {
   check_names(config, lessons_of(config));
   std::vector<Expectation> expected;
+  std::optional<Speed> speed;
   for (const Lesson& lesson : lessons_of(config, only)) {
     if (is_inference(config, lesson)) {
       check_frames(config.models[lesson.model]);
-      expected.push_back({lesson.name, 0, 0, ""});
+      expected.push_back({lesson.name, {}, {}, ""});
       continue;
     }
     try {
       const Cost cost = estimate_generator_lesson(config, lesson);
-      expected.push_back({lesson.name, cost.bytes, seconds(cost.work, machine_speed(true)), ""});
+      if (!speed) speed = machine_speed(true);
+      expected.push_back({lesson.name, cost.bytes, seconds(cost.work, *speed), ""});
     } catch (const Error& error) {
-      expected.push_back({lesson.name, 0, 0, "cannot be trained: " + first_line(error.what())});
+      expected.push_back({lesson.name, {}, {}, "cannot be trained: " + first_line(error.what())});
     }
   }
   return expected;

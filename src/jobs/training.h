@@ -25,7 +25,7 @@ struct Lesson {
 std::vector<Lesson> lessons_of(const Config& config, const std::string& only = "");
 
 /// The models that a config trains, of those that match `only`, with what each is expected to need;
-/// 0 bytes and seconds for an inference, whose pairs nobody has read yet.
+/// not of an inference, whose pairs nobody has read yet.
 /// Throws Error for an exemplar that cannot be read.
 std::vector<Expectation> expected_lessons(const Config& config, const std::string& only);
 

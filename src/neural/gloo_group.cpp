@@ -2,7 +2,9 @@
 
 #include <ATen/ATen.h>
 
+#include <algorithm>
 #include <charconv>
+#include <string>
 #include <torch/csrc/distributed/c10d/FileStore.hpp>
 #include <torch/csrc/distributed/c10d/ProcessGroupGloo.hpp>
 #include <torch/csrc/distributed/c10d/TCPStore.hpp>
@@ -118,6 +120,13 @@ Store open_store(const GroupPlace& place) {
 std::shared_ptr<Group> join_group(const GroupPlace& place) {
   try {
     const Store store = open_store(place);
+    // The first to come says how many there are: with another number nobody would ever meet.
+    const std::string size = fmt::format("{}", place.size);
+    if (store->add("came", 1) == 1)
+      store->set("size", std::vector<std::uint8_t>(size.begin(), size.end()));
+    else if (const auto first = store->get("size"); !std::ranges::equal(first, size))
+      throw GroupLost("process {} was told of {} processes, the first at {} of {}", place.rank + 1,
+                      size, place.meeting, std::string(first.begin(), first.end()));
     if (store->add(fmt::format("process {}", place.rank), 1) > 1)
       throw GroupLost("there are two processes of rank {} at {}", place.rank, place.meeting);
     return std::make_shared<GlooGroup>(store, place);

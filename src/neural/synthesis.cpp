@@ -325,7 +325,7 @@ class Synthesis {
         [&](auto& method) {
           if (resumed) method.load(state_.optimiser);
           at::Tensor pixels = made.all() ? state_.picture : made.take(state_.picture);
-          while (state_.iteration < iterations && !method.converged()) {
+          while (!first_says(state_.iteration >= iterations || method.converged())) {
             const double value = method.step(pixels, made.all() ? objective : of_made);
             if (!made.all()) made.put(pixels, state_.picture);
             if (!std::isfinite(value))
@@ -334,7 +334,7 @@ class Synthesis {
             if (state_.iteration++ == 0) state_.first_loss = value;
             const bool go_on = report(value, loss.terms());
             // The level is done, also for one who goes on from here later.
-            if (value <= params_.stop_loss * state_.first_loss || out_of_time())
+            if (first_says(value <= params_.stop_loss * state_.first_loss) || out_of_time())
               state_.iteration = iterations;
             keep([&] { return method.save(); }, !go_on);
             if (!go_on) return false;
@@ -346,6 +346,14 @@ class Synthesis {
 
   int first_patch() const { return std::max(largest_patch(), 8); }
   int largest_patch() const { return *std::ranges::max_element(params_.patch_sizes); }
+
+  // What each process makes alone may differ in its last bits: the first one says when all go on.
+  bool first_says(bool own) const {
+    if (group_.alone()) return own;
+    std::int32_t said = own;
+    group_.first(std::span(&said, 1));
+    return said != 0;
+  }
 
   // Finer levels then only make the picture larger; something must have been done first.
   bool out_of_time() const {
