@@ -5,7 +5,6 @@
 #include "io/text_file.h"
 #include "jobs/interruption.h"
 #include "jobs/output_guard.h"
-#include "neural/group.h"
 #include "report/page.h"
 
 namespace gramloom {
@@ -47,8 +46,7 @@ ExitCode end_run(const RunOptions& options, const RunSummary& summary, ProgressB
     bar.message(
         fmt::format("gramloom report {} makes the page of all shards", options.output.string()));
   if (options.group && summary.failed > 0 && summary.left > 0) {
-    bar.complaint(fmt::format("gramloom: the {} processes are apart, {} jobs are left",
-                              options.group->size(), summary.left));
+    bar.complaint(fmt::format("gramloom: the processes are apart, {} jobs are left", summary.left));
     return job_failed;
   }
   if (summary.interrupted + summary.left > 0) {
