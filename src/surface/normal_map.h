@@ -22,7 +22,6 @@ Image normals_to_colours(const Image& normals, GreenAxis green);
 /// of no length become (0, 0, 1).
 void make_unit(Image& picture, int first = 0);
 
-
 /// The unit normals of a normal map: N = 2 RGB − 1 of as_colours() (signal/normal_colours.h),
 /// divided by its length; a vector of no length becomes (0, 0, 1). Channels beyond the third are
 /// left out. Throws Error for fewer than three.

@@ -69,8 +69,9 @@ std::vector<std::string> includes_of(const fs::path& file) {
 
 std::string folder_of(const fs::path& file) { return fs::relative(file, source).begin()->string(); }
 
-// LibTorch and oneDNN stay inside neural/, learnt/ and train/ (signal/onednn.h is for those): neither the headers of other folders name
-// them, nor those headers of these that another folder includes, nor what these include in turn.
+// LibTorch and oneDNN stay inside neural/, learnt/ and train/ (signal/onednn.h is for those):
+// neither the headers of other folders name them, nor those headers of these that another folder
+// includes, nor what these include in turn.
 TEST(Layers, PublicHeadersHideTorch) {
   const std::set<std::string> inside{"neural", "learnt", "train"};
   std::vector<std::string> open;  // headers, as they are included
