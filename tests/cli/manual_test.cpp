@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "cli/help_text.h"
 #include "cli/workspace.h"
 #include "io/json_text.h"
 #include "jobs/key_lists.h"
@@ -33,17 +34,7 @@ class Manual : public Workspace {
   }
 
   // The commands and their options as --help has them.
-  std::vector<std::string> commands() const {
-    std::vector<std::string> names;
-    std::istringstream lines(output_of({"--help"}));
-    bool are_commands = false;
-    for (std::string line; std::getline(lines, line);) {
-      if (are_commands && line.starts_with("  ") && line[2] != ' ')
-        names.push_back(line.substr(2, line.find(' ', 2) - 2));
-      are_commands |= line.starts_with("Subcommands");
-    }
-    return names;
-  }
+  std::vector<std::string> commands() const { return commands_in(output_of({"--help"})); }
   std::set<std::string> options(const std::string& command) const {
     std::set<std::string> names;
     std::istringstream lines(output_of({command, "--help"}));

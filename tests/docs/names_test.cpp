@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "cli/help_text.h"
 #include "cli/process.h"
 #include "io/json_text.h"
 #include "io/temp_folder.h"
@@ -24,17 +24,7 @@ class Names : public TempFolder {
   }
 
   // As --help has them.
-  std::vector<std::string> commands() const {
-    std::vector<std::string> names;
-    std::istringstream lines(output_of("--help"));
-    bool are_commands = false;
-    for (std::string line; std::getline(lines, line);) {
-      if (are_commands && line.starts_with("  ") && line[2] != ' ')
-        names.push_back(line.substr(2, line.find(' ', 2) - 2));
-      are_commands |= line.starts_with("Subcommands");
-    }
-    return names;
-  }
+  std::vector<std::string> commands() const { return commands_in(output_of("--help")); }
 
   std::vector<std::string> listed(const std::string& topic) const {
     std::vector<std::string> names;
