@@ -1,9 +1,13 @@
 #include "neural/gloo_group.h"
 
 #include <ATen/ATen.h>
+#include <netdb.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cstdlib>
 #include <string>
 #include <torch/csrc/distributed/c10d/FileStore.hpp>
 #include <torch/csrc/distributed/c10d/ProcessGroupGloo.hpp>
@@ -28,13 +32,32 @@ auto among_processes(int size, Work&& work) {
   }
 }
 
+bool has_address(const std::string& host) {
+  addrinfo* found = nullptr;
+  const bool has = getaddrinfo(host.c_str(), nullptr, nullptr, &found) == 0;
+  if (found) freeaddrinfo(found);
+  return has;
+}
+
+// Where this machine listens: at the address of its name, or of the interface that the environment
+// names. One whose name has no address can only meet processes of its own: Gloo would say so on
+// standard error, whatever the user does with it.
+auto device() {
+  if (const char* interface = std::getenv("GLOO_SOCKET_IFNAME"); interface && *interface)
+    return c10d::ProcessGroupGloo::createDeviceForInterface(interface);
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return has_address(name.data()) ? c10d::ProcessGroupGloo::createDefaultDevice()
+                                  : c10d::ProcessGroupGloo::createDeviceForHostname("127.0.0.1");
+}
+
 class GlooGroup : public Group {
  public:
   GlooGroup(const Store& store, const GroupPlace& place)
       : Group(place.rank, place.size), store_(store), patience_(place.patience) {
     among_processes(size(), [&] {
       const auto options = c10d::ProcessGroupGloo::Options::create(patience_);
-      options->devices.push_back(c10d::ProcessGroupGloo::createDefaultDevice());
+      options->devices.push_back(device());
       options->threads = 1;  // one at a time: so they need not be told apart
       gloo_ = c10::make_intrusive<c10d::ProcessGroupGloo>(store, rank(), size(), options);
       return 0;

@@ -35,7 +35,7 @@ add_library(headers OBJECT all.cpp)
 target_link_libraries(headers PRIVATE gramloom::jobs gramloom::report)
 add_subdirectory(${EXAMPLES} examples)
 END
-cmake -S "$temp/headers" -B "$temp/build" -DCMAKE_PREFIX_PATH="$temp/usr" -DEXAMPLES="$examples" >"$temp/log" 2>&1 ||
+cmake -G Ninja -S "$temp/headers" -B "$temp/build" -DCMAKE_PREFIX_PATH="$temp/usr" -DEXAMPLES="$examples" >"$temp/log" 2>&1 ||
   { cat "$temp/log"; exit 1; }
 targets=(headers)
 for example; do targets+=("example_$example"); done
