@@ -1,8 +1,7 @@
 #include <algorithm>
 
-#include "core/hash.h"
-#include "io/text_file.h"
 #include "jobs/baseline_compare.h"
+#include "jobs/inputs.h"
 
 namespace gramloom {
 
@@ -19,8 +18,8 @@ std::vector<ChangedPicture> changed_pictures(const Baseline& before, const Basel
   std::vector<ChangedPicture> changed;
   for (std::size_t i = 0; i < std::min(was.size(), is.size()); ++i) {
     const fs::path old_file = folder / was[i], new_file = folder / is[i];
-    const std::string hash = hash_of(read_text(before.folder / old_file));
-    if (hash != hash_of(read_text(now.folder / new_file)))
+    const std::string hash = file_hash(before.folder / old_file);
+    if (hash != file_hash(now.folder / new_file))
       changed.push_back({old_file.generic_string(), hash, new_file.generic_string()});
   }
   return changed;

@@ -100,6 +100,12 @@ struct Expectations {
   }
 };
 
+// Of the job called `name`; what is not known is left out.
+Row row_of(const std::string& name, const Expectation& expected) {
+  return {name, expected.memory ? memory_text(*expected.memory) : "",
+          expected.seconds ? clock_text(*expected.seconds) : "", expected.problem};
+}
+
 bool multiplies_matrices(const Plan& plan) {
   return std::ranges::any_of(plan.jobs, [](const PlannedJob& planned) {
     return planned.selected && planned.cost.work.operations > 0;
@@ -241,10 +247,7 @@ std::string job_table(const Config& config, const Plan& plan) {
   const Expectations expected = expectations_of(config, plan);
   std::vector<Row> rows{{"job", "memory", "time", ""}};
   const auto add = [&](const std::vector<Expectation>& list, const std::string& what) {
-    for (const Expectation& one : list) {
-      rows.push_back({one.name + what, one.memory ? memory_text(*one.memory) : "",
-                      one.seconds ? clock_text(*one.seconds) : "", one.problem});
-    }
+    for (const Expectation& one : list) rows.push_back(row_of(one.name + what, one));
   };
   add(expected.jobs, "");
   add(expected.diversities, " diversity");
@@ -256,10 +259,7 @@ std::string job_table(const Config& config, const Plan& plan) {
 std::string lesson_table(const std::vector<Expectation>& lessons) {
   if (lessons.empty()) return "";
   std::vector<Row> rows{{"model to train", "memory", "time", ""}};
-  for (const Expectation& lesson : lessons) {
-    rows.push_back({lesson.name, lesson.memory ? memory_text(*lesson.memory) : "",
-                    lesson.seconds ? clock_text(*lesson.seconds) : "", lesson.problem});
-  }
+  for (const Expectation& lesson : lessons) rows.push_back(row_of(lesson.name, lesson));
   return text_table(rows, "") + "\n";
 }
 

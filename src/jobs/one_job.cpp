@@ -8,6 +8,7 @@
 #include "jobs/run_job.h"
 #include "jobs/texture_rows.h"
 #include "jobs/unit_normals.h"
+#include "neural/shares.h"
 #include "runs/job_files.h"
 
 namespace gramloom {
@@ -45,8 +46,8 @@ std::span<float> rows_of(Image& image, int first, int count) {
 }
 
 int height_of(int height, int rank, int size) {
-  const auto edge = [&](int i) { return std::int64_t{height} * i / size; };
-  return static_cast<int>(edge(rank + 1) - edge(rank));
+  return static_cast<int>(neural::begin_of_share(height, rank + 1, size) -
+                          neural::begin_of_share(height, rank, size));
 }
 
 // To process 1.

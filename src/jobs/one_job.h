@@ -31,8 +31,8 @@ void check_together(const Config& config, const std::string& only, int processes
 /// How much a job needs in each of the processes.
 void estimate_together(const Config& config, Plan& plan, int processes);
 
-/// Does the work of all processes but the first, until that has no more. Throws
-/// neural::GroupLost when it, or another one, is gone.
+/// Does the work of all processes but the first, until that has no more; false: until one of them
+/// was told to stop. Throws neural::GroupLost when it, or another one, is gone.
 bool work_for_first(const Config& config, const RunOptions& options);
 
 // Of process 1:

@@ -223,20 +223,19 @@ Hashes hashes_of(const PickWork& work, const std::vector<Pick>& picks) {
   return hashes;
 }
 
-// Whether a file is as the earlier pick left it. Without that it is the user's.
-bool is_as_left(const fs::path& output, const Hashes& before, const std::string& file) {
-  const auto found = before.find(file);
-  return found != before.end() && file_hash(output / file) == found->second;
-}
-
+// A file that is there is as the earlier pick left it, or already as this one will; else it is the
+// user's.
 void refuse_what_is_not_ours(const PickWork& work, const Hashes& before, const Hashes& after) {
-  for (const auto& [file, hash] : after)
-    if (fs::exists(work.output / file) && !is_as_left(work.output, before, file) &&
-        file_hash(work.output / file) != hash)
+  for (const auto& [file, hash] : after) {
+    if (!fs::exists(work.output / file)) continue;
+    const std::string found = file_hash(work.output / file);
+    const auto left = before.find(file);
+    if (found != hash && (left == before.end() || found != left->second))
       throw ConfigError(
           "pick {}: --output {}: {} was not made by an earlier pick, or changed since; "
           "choose another folder",
           work.run.string(), work.output.string(), file);
+  }
 }
 
 void write_mark(const PickWork& work, const Hashes& files) {
@@ -266,7 +265,7 @@ std::vector<fs::path> pick_results(const PickWork& work) {
   }
   for (const auto& [file, hash] : before)
     if (!after.contains(file) && fs::exists(work.output / file) &&
-        is_as_left(work.output, before, file))
+        file_hash(work.output / file) == hash)
       remove_file(work.output / file);
   write_mark(work, after);
   return textures;

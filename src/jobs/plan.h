@@ -44,7 +44,7 @@ struct PlannedJob {
   Job job;
   std::string name;
   Cost cost;             // of making the texture
-  Cost finishing;        // of the maps and the preview that are made of it
+  Cost finishing;        // of its file, and of the maps and the preview that are made of it
   Cost scoring;          // of scoring it afterwards; 0: it will not be
   std::string error;     // why it cannot run; empty when it can
   bool selected = true;  // false: --only leaves it out

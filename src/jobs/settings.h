@@ -21,6 +21,7 @@ struct InputHashes {
 
   friend bool operator==(const InputHashes&, const InputHashes&) = default;
 };
+
 /// Whether [surface] makes maps of the job's texture: of a height among its exemplar's maps, or of
 /// a procedural texture.
 bool makes_maps(const Config& config, const Job& job);

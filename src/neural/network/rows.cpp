@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "neural/shares.h"
+
 namespace gramloom::neural {
 
 Rows hull(Rows a, Rows b) {
@@ -11,7 +13,7 @@ Rows hull(Rows a, Rows b) {
 }
 
 Rows share_of(std::int64_t count, std::int64_t i, std::int64_t shares) {
-  return {count * i / shares, count * (i + 1) / shares};
+  return {begin_of_share(count, i, shares), begin_of_share(count, i + 1, shares)};
 }
 
 HeldRows all_rows(const at::Tensor& picture) {
