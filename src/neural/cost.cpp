@@ -16,6 +16,7 @@ using namespace neural;
 constexpr double start_seconds = 0.5;  // of the libraries
 constexpr double seconds_per_step = 5e-4;
 constexpr double seconds_per_value = 1.5e-8;          // of Adam
+constexpr double seconds_per_map_value = 1.4e-8;      // of a network, beside its products
 constexpr double seconds_per_remembered = 3e-10;      // value of L-BFGS
 constexpr double evaluations_per_step = 1.1;          // of L-BFGS
 constexpr double seconds_per_pixel_of_fill = 7.5e-7;  // known or made, in a step of a layout
@@ -42,7 +43,8 @@ LossSize loss_size(const NeuralParams& params, Size exemplar, Size canvas, int c
 
 // Of one evaluation of all terms: they take turns, but those that look at a network do so together.
 LossCost loss_cost(const NeuralParams& params, const LossSize& size) {
-  LossCost network{{.operations = size.of_result.filters},
+  LossCost network{{.shared = size.of_result.values * seconds_per_map_value,
+                    .operations = size.of_result.filters},
                    sizeof(float) * 3 * size.of_result.weights +
                        std::max(size.of_result.bytes(), size.of_exemplar.bytes_without_gradient())};
   LossCost pictures;

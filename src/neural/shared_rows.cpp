@@ -94,7 +94,12 @@ HeldRows RowExchange::take(const HeldRows& own) const {
 
 at::Tensor RowExchange::give_back(const at::Tensor& of_taken) const {
   if (group_.alone()) return of_taken;
-  const at::Tensor of_own = at::zeros(with_rows(of_taken, own_.count()), of_taken.options());
+  at::Tensor of_own = at::zeros(with_rows(of_taken, own_.count()), of_taken.options());
+  add_back(of_taken, of_own);
+  return of_own;
+}
+
+void RowExchange::add_back(const at::Tensor& of_taken, at::Tensor& of_own) const {
   std::vector<Piece> out, in, from, to;
   for (const Piece& piece : wished_) (piece.peer == group_.rank() ? from : out).push_back(piece);
   for (const Piece& piece : asked_) (piece.peer == group_.rank() ? to : in).push_back(piece);
@@ -102,7 +107,6 @@ at::Tensor RowExchange::give_back(const at::Tensor& of_taken) const {
     rows_of(of_own, to[i].rows).add_(rows_of(of_taken, from[i].rows));
   swap(group_, of_taken, out, in,
        [&](Rows rows, const at::Tensor& came) { rows_of(of_own, rows).add_(came); });
-  return of_own;
 }
 
 void sum_all(const Group& group, const std::vector<at::Tensor>& tensors) {

@@ -27,6 +27,8 @@ class RowExchange {
   HeldRows take(const HeldRows& own) const;
   /// The transpose: the gradient of the own rows from that of the rows that each process took.
   at::Tensor give_back(const at::Tensor& of_taken) const;
+  /// The same, added to that of the own rows. Not for a group of one.
+  void add_back(const at::Tensor& of_taken, at::Tensor& of_own) const;
 
  private:
   struct Piece {

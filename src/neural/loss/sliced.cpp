@@ -61,6 +61,12 @@ std::vector<Potential> potentials_of(const Group& group, const at::Tensor& value
   return potentials;
 }
 
+// Rows of positions, and the picture in which their patches lie, from its first row on.
+struct Part {
+  std::int64_t begin, end;
+  at::Tensor picture, gradient;
+};
+
 class SlicedTerm : public PictureTerm {
  public:
   SlicedTerm(const SlicedParams& params, const LossInput& input)
@@ -143,29 +149,45 @@ class SlicedTerm : public PictureTerm {
   }
 
   // The same, the distance that of a sample of the positions, and the gradient at all positions
-  // that of the sample's potential. Patches that begin in a process' rows go on in those below.
+  // that of the sample's potential.
   double add_sampled(const at::Tensor& picture, const at::Tensor& filters, double weight,
                      std::uint64_t step, at::Tensor& gradient) const {
     const std::int64_t side = filters.size(2);
     const PatchPositions all = positions(side);
+    const PatchSample sample = sample_of(all, step);
+    // Patches of the last rows that a process has go on in the rows below: of these few rows it has
+    // a copy with a gradient of its own, beside its picture.
     const Rows own = own_rows(group_, size_.height);
-    const std::int64_t end = std::min(own.end, all.rows);  // of the positions
-    const RowExchange exchange(group_, size_.height, {own.begin, end + side - 1});
-    const at::Tensor seen = exchange.take(held_by(group_, picture, size_.height)).data;
+    const std::int64_t end = std::max(own.begin, std::min(own.end, all.rows));
+    const std::int64_t inside =
+        group_.alone() ? end : std::max(own.begin, std::min(own.end - side + 1, end));
+    const Rows last{inside, inside < end ? end + side - 1 : inside};
+    const RowExchange exchange(group_, size_.height, last);
+    at::Tensor below, of_below;
+    if (!group_.alone()) {
+      below = exchange.take(held_by(group_, picture, size_.height)).data;
+      of_below = at::zeros_like(below);
+    }
+    std::vector<Part> parts;
+    if (own.begin < inside) parts.push_back({own.begin, inside, picture, gradient});
+    if (inside < end) parts.push_back({inside, end, below, of_below});
     const Tile wraps = group_.alone() ? wraps_ : wrapping(tiles_x(wraps_), false);
-    const PatchSample sample = sample_of(all, step).in_rows(own.begin, end);
-    const auto potentials =
-        potentials_of(group_, project_sample(seen, filters, wraps, sample), goal(filters, step));
+    std::vector<at::Tensor> values;
+    for (const Part& part : parts)
+      values.push_back(
+          project_sample(part.picture, filters, wraps, sample.in_rows(part.begin, part.end)));
+    const auto potentials = potentials_of(
+        group_, values.size() == 1 ? values[0] : at::cat(values, 1), goal(filters, step));
     const auto directions = static_cast<double>(filters.size(0));
     const auto slope = static_cast<float>(weight / static_cast<double>(all.count()) / directions);
-    at::Tensor of_seen = group_.alone() ? gradient : at::zeros_like(seen);
-    add_slopes(
-        seen, filters, wraps,
-        [&](std::int64_t filter, std::span<float> products) {
-          potentials[static_cast<std::size_t>(filter)].to_slopes(products, slope);
-        },
-        of_seen);
-    if (!group_.alone()) gradient.add_(exchange.give_back(of_seen));
+    for (Part& part : parts)
+      add_slopes(
+          part.picture, filters, wraps,
+          [&](std::int64_t filter, std::span<float> products) {
+            potentials[static_cast<std::size_t>(filter)].to_slopes(products, slope);
+          },
+          part.gradient);
+    if (!group_.alone()) exchange.add_back(of_below, gradient);
     double sum = 0;
     for (const Potential& potential : potentials) sum += potential.distance();
     return sum / directions;

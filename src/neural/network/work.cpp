@@ -27,8 +27,8 @@ void a_few_rows_at_a_time(NetworkWork& work, const Reach& reach, Size picture) {
                           picture.height / reach.row));
   if (times <= 1) return;
   const double share = std::min(1.0, 1 / times + 2 * reach.rim / picture.height);
-  for (double* operations : {&work.filters, &work.products, &work.products_within_scales})
-    *operations *= 1.5 * share * times;
+  for (double* done : {&work.filters, &work.products, &work.products_within_scales, &work.values})
+    *done *= 1.5 * share * times;
   for (double* values : {&work.kept, &work.largest, &work.matched})
     *values *= std::min(1.0, share * copied_rows);
 }
@@ -81,6 +81,7 @@ NetworkWork network_work(const NetworkDescription& network, const std::vector<Fi
       }
     if (std::holds_alternative<ReluLayer>(kind)) continue;  // done with the layer before
     work.kept += values;
+    work.values += values;
     work.largest = std::max(work.largest, values);
     if (pyramid) {  // whose rows reach as far as its scales are averaged over each other
       reach.row = std::pow(2.0, static_cast<double>(positions.size()) - 1);

@@ -23,6 +23,7 @@ struct NetworkWork {
   double filters = 0;   // operations of one pass and its gradient
   double products = 0;  // of each matched map with each other, also those of finer scales
   double products_within_scales = 0;
+  double values = 0;     // of all layers' maps, each as often as it is computed
   double kept = 0;       // values that the gradient needs
   double largest = 0;    // values of the largest layer
   double matched = 0;    // values of the matched layers
