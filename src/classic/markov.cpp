@@ -117,7 +117,7 @@ class Canvas {
 };
 
 /// The usable pixels of an exemplar, as one row.
-Image usable_pixels(const Exemplar& exemplar) {
+Image only_usable(const Exemplar& exemplar) {
   std::vector<const float*> pixels;
   for (int y = 0; y < exemplar.mask.height; ++y)
     for (int x = 0; x < exemplar.mask.width; ++x)
@@ -136,7 +136,7 @@ struct Symbols {
 Symbols find_symbols(const Exemplar& exemplar, const Target& target, int colours, int left, int top,
                      Random random) {
   const Palette palette = learn_palette(
-      exemplar.mask.empty() ? exemplar.image : usable_pixels(exemplar), colours, random);
+      exemplar.mask.empty() ? exemplar.image : only_usable(exemplar), colours, random);
   Symbols result{nearest_colours(exemplar.image, palette), {}};
   for (std::size_t i = 0; i < exemplar.mask.pixels.size(); ++i)
     if (exemplar.mask.pixels[i] <= 0.5f) result.exemplar[i] = ContextTable::unknown;

@@ -16,8 +16,6 @@ constexpr int block_lines = 32;
 constexpr int lanes = 16;
 using Lanes __attribute__((vector_size(lanes * sizeof(float)), aligned(4), may_alias)) = float;
 
-std::size_t to_size(int value) { return static_cast<std::size_t>(value); }
-
 Image transposed_image(const Image& image) {
   Image result(image.height, image.width, image.channels);
   for (int y = 0; y < image.height; ++y)

@@ -15,8 +15,6 @@ namespace {
 constexpr int block_side = 384;
 constexpr int block_patches = 4;
 
-std::size_t to_size(int value) { return static_cast<std::size_t>(value); }
-
 /// sum += a · conj(b), of complex numbers whose parts follow each other.
 GRAMLOOM_SIMD void add_products(const float* __restrict a, const float* __restrict b,
                                 float* __restrict sum, int count) {

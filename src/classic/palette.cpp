@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/threads.h"
+#include "signal/squared_distance.h"
 
 namespace gramloom {
 
@@ -28,12 +29,6 @@ Image sample(const Image& image, Random random) {
                 result.pixels.data() + i * channels);
   }
   return result;
-}
-
-float squared_distance(const float* a, const float* b, std::size_t channels) {
-  float sum = 0;
-  for (std::size_t c = 0; c < channels; ++c) sum += (a[c] - b[c]) * (a[c] - b[c]);
-  return sum;
 }
 
 /// k-means++: each colour is a pixel drawn in proportion to the square of its distance from the

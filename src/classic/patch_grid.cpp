@@ -6,9 +6,7 @@
 
 namespace gramloom {
 
-namespace {
-std::size_t to_size(int value) { return static_cast<std::size_t>(value); }
-}  // namespace
+namespace {}  // namespace
 
 int PatchAxis::before(int i) const {
   if (i > 0) return starts[to_size(i - 1)] + patch - starts[to_size(i)];

@@ -12,12 +12,9 @@ namespace gramloom {
 
 namespace {
 
-constexpr int border = field_patch - 1;
 constexpr int middle = field_patch / 2;
-constexpr float patch_area = field_patch * field_patch;
 using Pixel = FeaturePixel;
 
-std::size_t to_size(int i) { return static_cast<std::size_t>(i); }
 int wrapped(int i, int length) { return (i % length + length) % length; }
 
 /// A patch and how urgent it was when it was put into the queue.
@@ -171,8 +168,8 @@ class Growth {
       }
     const Size field = hole_.field.size;
     const bool wraps_x = tiles_x(hole_.field.tile), wraps_y = tiles_y(hole_.field.tile);
-    for (int v = y - border - 1; v <= y + border + 1; ++v)
-      for (int u = x - border - 1; u <= x + border + 1; ++u) {
+    for (int v = y - patch_border - 1; v <= y + patch_border + 1; ++v)
+      for (int u = x - patch_border - 1; u <= x + patch_border + 1; ++u) {
         const int column = wraps_x ? wrapped(u, field.width) : u;
         const int row = wraps_y ? wrapped(v, field.height) : v;
         if (column >= 0 && row >= 0 && column < field.width && row < field.height) ask(column, row);

@@ -10,11 +10,6 @@ namespace gramloom {
 
 namespace {
 
-constexpr int border = field_patch - 1;
-
-std::size_t to_size(int i) { return static_cast<std::size_t>(i); }
-std::size_t area(Size size) { return to_size(size.width) * to_size(size.height); }
-
 /// Half the size, rounded up, each pixel the mean of 2×2: the last column and row count twice where
 /// they lack a neighbour.
 Image halved_up(const Image& image) {
@@ -34,7 +29,7 @@ Image halved_up(const Image& image) {
 HoleLevel halved(const HoleLevel& fine) {
   HoleLevel half;
   half.size = {(fine.size.width + 1) / 2, (fine.size.height + 1) / 2};
-  half.states.resize(area(half.size));
+  half.states.resize(pixel_count(half.size));
   for (int y = 0; y < fine.size.height; ++y)
     for (int x = 0; x < fine.size.width; ++x) {
       const PixelState state = fine.states[to_size(y) * to_size(fine.size.width) + to_size(x)];
@@ -62,10 +57,12 @@ Part part_of(const HoleLevel& level, Tile tile) {
         top = std::min(top, y);
         bottom = std::max(bottom, y);
       }
-  left = tiles_x(tile) ? 0 : std::max(0, left - border);
-  right = tiles_x(tile) ? level.size.width - 1 : std::min(level.size.width - 1, right + border);
-  top = tiles_y(tile) ? 0 : std::max(0, top - border);
-  bottom = tiles_y(tile) ? level.size.height - 1 : std::min(level.size.height - 1, bottom + border);
+  left = tiles_x(tile) ? 0 : std::max(0, left - patch_border);
+  right =
+      tiles_x(tile) ? level.size.width - 1 : std::min(level.size.width - 1, right + patch_border);
+  top = tiles_y(tile) ? 0 : std::max(0, top - patch_border);
+  bottom = tiles_y(tile) ? level.size.height - 1
+                         : std::min(level.size.height - 1, bottom + patch_border);
   return {left, top, {right - left + 1, bottom - top + 1}};
 }
 
@@ -94,12 +91,12 @@ std::vector<float> confidences(const std::vector<unsigned char>& made, Size text
   // Patches on an axis that tiles reach around it.
   const cv::Mat1b holes(texture.height, texture.width, const_cast<unsigned char*>(made.data()));
   cv::Mat1b wide, touched;
-  cv::copyMakeBorder(holes, wide, 0, field.height + border - texture.height, 0,
-                     field.width + border - texture.width, cv::BORDER_WRAP);
+  cv::copyMakeBorder(holes, wide, 0, field.height + patch_border - texture.height, 0,
+                     field.width + patch_border - texture.width, cv::BORDER_WRAP);
   cv::dilate(wide, touched, cv::Mat::ones(field_patch, field_patch, CV_8U), cv::Point(0, 0));
   cv::Mat1f distance;
   cv::distanceTransform(wide, distance, cv::DIST_C, cv::DIST_MASK_3);
-  std::vector<float> result(area(field));
+  std::vector<float> result(pixel_count(field));
   for (int y = 0; y < field.height; ++y)
     for (int x = 0; x < field.width; ++x)
       if (touched(y, x) != 0)
@@ -113,7 +110,7 @@ std::vector<float> patch_weights(const Image& weight, Size field) {
   const cv::Mat1f values(weight.height, weight.width, const_cast<float*>(weight.pixels.data()));
   cv::Mat1f means;
   cv::blur(values, means, {field_patch, field_patch}, {0, 0});
-  std::vector<float> result(area(field));
+  std::vector<float> result(pixel_count(field));
   for (int y = 0; y < field.height; ++y)
     std::copy_n(means.ptr<float>(y), field.width,
                 result.begin() + static_cast<std::ptrdiff_t>(y) * field.width);
@@ -134,11 +131,11 @@ void enter_level(PatchHole& hole, std::size_t index) {
   const Part part = index + 1 < hole.levels.size() ? part_of(level, tile) : Part{0, 0, level.size};
   hole.left = part.left;
   hole.top = part.top;
-  const Size patches{part.size.width - (tiles_x(tile) ? 0 : border),
-                     part.size.height - (tiles_y(tile) ? 0 : border)};
-  const Size canvas{patches.width + border, patches.height + border};
+  const Size patches{part.size.width - (tiles_x(tile) ? 0 : patch_border),
+                     part.size.height - (tiles_y(tile) ? 0 : patch_border)};
+  const Size canvas{patches.width + patch_border, patches.height + patch_border};
   hole.field = blank_field(patches, tile);
-  hole.made.assign(area(part.size), 0);
+  hole.made.assign(pixel_count(part.size), 0);
   for (int y = 0; y < part.size.height; ++y)
     for (int x = 0; x < part.size.width; ++x) {
       const PixelState state =

@@ -16,8 +16,6 @@ constexpr int narrow_hole = 8;
 /// Fewer origins than these of an exemplar on a level are too few to choose from.
 constexpr int fewest_origins = 64;
 
-double area(Size size) { return static_cast<double>(size.width) * size.height; }
-
 /// Where each exemplar begins on a level of this width; nothing for a single one. Those that are
 /// too narrow for the level have no part of it.
 std::vector<int> parts_of(const United& united, int exemplars, int level, int width) {

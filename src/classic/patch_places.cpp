@@ -11,7 +11,6 @@ namespace gramloom {
 
 namespace {
 
-constexpr float patch_area = field_patch * field_patch;
 /// What a pixel counts that is known where a place has none: as if it differed by this variance.
 constexpr float unseen = 0.1f;
 

@@ -12,7 +12,6 @@ namespace gramloom {
 
 namespace {
 
-constexpr int border = field_patch - 1;
 constexpr int rows_at_once = 32;
 typedef float Pixel
     __attribute__((vector_size(field_features * sizeof(float)), aligned(4), may_alias));
@@ -45,9 +44,9 @@ GRAMLOOM_INLINE void add_pixel(const PatchRow& row, int pixel, int first, int en
 /// one.
 GRAMLOOM_INLINE void add_pair(const PatchRow& row, int pixel, float* sums) {
   Pixel* sum = reinterpret_cast<Pixel*>(sums + pixel * field_features);
-  const Pixel left = sum[0] + row.said<Pixel>(pixel - border, pixel);
+  const Pixel left = sum[0] + row.said<Pixel>(pixel - patch_border, pixel);
   Pair both = __builtin_shufflevector(left, sum[1], 0, 1, 2, 3, 4, 5, 6, 7);
-  for (int patch = pixel - border + 1; patch <= pixel; ++patch)
+  for (int patch = pixel - patch_border + 1; patch <= pixel; ++patch)
     both += row.said<Pair>(patch, pixel);
   sum[0] = __builtin_shufflevector(both, both, 0, 1, 2, 3);
   sum[1] = __builtin_shufflevector(both, both, 4, 5, 6, 7) + row.said<Pixel>(pixel + 1, pixel + 1);
@@ -56,15 +55,15 @@ GRAMLOOM_INLINE void add_pair(const PatchRow& row, int pixel, float* sums) {
 /// Adds to each pixel's weight those of its patches.
 GRAMLOOM_INLINE void add_weights(const PatchRow& row, float* __restrict weights) {
   const float* __restrict of_patch = row.weights;
-  for (int pixel = 0; pixel < std::min(border, row.count); ++pixel)
+  for (int pixel = 0; pixel < std::min(patch_border, row.count); ++pixel)
     for (int patch = 0; patch <= pixel; ++patch) weights[pixel] += of_patch[patch];
-  for (int pixel = border; pixel < row.count; ++pixel) {
+  for (int pixel = patch_border; pixel < row.count; ++pixel) {
     float weight = weights[pixel];
-    for (int k = 0; k < field_patch; ++k) weight += of_patch[pixel - border + k];
+    for (int k = 0; k < field_patch; ++k) weight += of_patch[pixel - patch_border + k];
     weights[pixel] = weight;
   }
-  for (int pixel = row.count; pixel < row.count + border; ++pixel)
-    for (int patch = std::max(0, pixel - border); patch < row.count; ++patch)
+  for (int pixel = row.count; pixel < row.count + patch_border; ++pixel)
+    for (int patch = std::max(0, pixel - patch_border); patch < row.count; ++patch)
       weights[pixel] += of_patch[patch];
 }
 
@@ -80,13 +79,13 @@ GRAMLOOM_SIMD void add_lines(const SmallOrigin* origins, const float* patch_weig
         field_features;
   const PatchRow row{offsets, patch_weights, count, exemplar.pixels.data()};
   add_weights(row, weights);
-  for (int pixel = 0; pixel < std::min(border, count); ++pixel)
+  for (int pixel = 0; pixel < std::min(patch_border, count); ++pixel)
     add_pixel(row, pixel, 0, pixel + 1, sums);
-  int pixel = border;
+  int pixel = patch_border;
   for (; pixel + 1 < count; pixel += 2) add_pair(row, pixel, sums);
-  for (; pixel < count; ++pixel) add_pixel(row, pixel, pixel - border, pixel + 1, sums);
-  for (pixel = count; pixel < count + border; ++pixel)
-    add_pixel(row, pixel, std::max(0, pixel - border), count, sums);
+  for (; pixel < count; ++pixel) add_pixel(row, pixel, pixel - patch_border, pixel + 1, sums);
+  for (pixel = count; pixel < count + patch_border; ++pixel)
+    add_pixel(row, pixel, std::max(0, pixel - patch_border), count, sums);
 }
 
 /// Calls f(patch's row in the field, line of the patch) for the patches over row y of the canvas.
@@ -117,13 +116,13 @@ GRAMLOOM_SIMD void multiply(float* __restrict values, const float* __restrict by
 /// The weights of the patches over rows [first, last) of the canvas: of the row `border` above the
 /// first one on. Those of rows that the field lacks are not set.
 std::vector<float> weights_over(const PatchField& field, int first, int last, float floor) {
-  std::vector<float> weights(field.index(0, last - first + border));
-  for (int y = first - border; y < last; ++y) {
+  std::vector<float> weights(field.index(0, last - first + patch_border));
+  for (int y = first - patch_border; y < last; ++y) {
     int row = y;
     if (tiles_y(field.tile))
       row = (row % field.size.height + field.size.height) % field.size.height;
     if (row < 0 || row >= field.size.height) continue;
-    float* of_row = weights.data() + field.index(0, y - first + border);
+    float* of_row = weights.data() + field.index(0, y - first + patch_border);
     const auto count = static_cast<std::size_t>(field.size.width);
     weigh(field.distance.data() + field.index(0, row), floor, of_row, count);
     if (!field.confidence.empty())
@@ -154,12 +153,12 @@ void repeat_border(Image& canvas, const PatchField& field) {
 }  // namespace
 
 Size texture_size(const PatchField& field) {
-  return {field.size.width + (tiles_x(field.tile) ? 0 : border),
-          field.size.height + (tiles_y(field.tile) ? 0 : border)};
+  return {field.size.width + (tiles_x(field.tile) ? 0 : patch_border),
+          field.size.height + (tiles_y(field.tile) ? 0 : patch_border)};
 }
 
 Image vote(const PatchField& field, const Image& exemplar, float floor) {
-  Image canvas(field.size.width + border, field.size.height + border, field_features);
+  Image canvas(field.size.width + patch_border, field.size.height + patch_border, field_features);
   vote(field, exemplar, floor, canvas);
   return canvas;
 }
@@ -178,7 +177,8 @@ void vote(const PatchField& field, const Image& exemplar, float floor, Image& ca
       for_each_patch_row(field, y, [&](int row, int line) {
         const std::size_t start = field.index(0, row);
         const float* weights_of_row =
-            patch_weights.data() + field.index(0, y - line - static_cast<int>(first) + border);
+            patch_weights.data() +
+            field.index(0, y - line - static_cast<int>(first) + patch_border);
         add_lines(field.nearest.data() + start, weights_of_row, field.size.width, exemplar, line,
                   sums.data(), weights.data(), offsets.data());
       });

@@ -7,6 +7,9 @@
 
 namespace gramloom {
 
+/// A canvas has so many more rows and columns than it has patches, where it does not wrap.
+inline constexpr int patch_border = field_patch - 1;
+
 /// The canvas that fits the field's patches best: each pixel is the mean of what the patches over
 /// it say, weighted by (distance² + floor)^((r − 2) / 2), the reweighted least squares of Kwatra,
 /// Essa, Bobick, Kwatra 2005 ("Texture optimization for example-based synthesis", section 3.1).

@@ -22,8 +22,6 @@ struct Group {
   int width = 0;  // twice the largest distance from known pixels
 };
 
-std::size_t to_size(int i) { return static_cast<std::size_t>(i); }
-
 cv::Mat1b holes_of(const Image& mask) {
   cv::Mat1b holes(mask.height, mask.width);
   for (int y = 0; y < mask.height; ++y)

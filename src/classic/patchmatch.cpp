@@ -20,7 +20,6 @@ namespace {
 
 /// Lower bound of the exemplar's shorter side on the coarsest level.
 constexpr int coarsest_side = 28;
-constexpr int border = field_patch - 1;
 
 struct Level {
   Image exemplar;  // features
@@ -45,8 +44,8 @@ std::vector<Level> make_levels(const PatchmatchParams& params, const Image& exem
 
 /// Number of patches in each direction that cover a texture.
 Size patches_of(Size texture, Tile tile) {
-  return {texture.width - (tiles_x(tile) ? 0 : border),
-          texture.height - (tiles_y(tile) ? 0 : border)};
+  return {texture.width - (tiles_x(tile) ? 0 : patch_border),
+          texture.height - (tiles_y(tile) ? 0 : patch_border)};
 }
 
 /// A canvas to start from: a quilt of the exemplar, repeated where it tiles. Patches of 12 pixels
@@ -62,7 +61,7 @@ Image first_canvas(const Level& level, Tile tile, Random random) {
   const Image quilt =
       synthesise(params, {{{level.exemplar}}, {level.texture, tile}, random}, {}).image;
   const Size patches = patches_of(level.texture, tile);
-  Image canvas(patches.width + border, patches.height + border, field_features);
+  Image canvas(patches.width + patch_border, patches.height + patch_border, field_features);
   for (int y = 0; y < canvas.height; ++y)
     for (int x = 0; x < canvas.width; ++x)
       std::copy_n(quilt.at(x % quilt.width, y % quilt.height), field_features, canvas.at(x, y));
@@ -88,7 +87,6 @@ PatchField refined(const PatchField& coarse, const Level& level) {
 
 /// Few enough patches and origins to try all.
 bool is_small(const Level& level) {
-  const auto area = [](Size s) { return static_cast<double>(s.width) * s.height; };
   return area(level.texture) * area(level.exemplar.size()) < 2e7;
 }
 

@@ -32,8 +32,6 @@ constexpr int near_passes = 2;
 constexpr int near_radius = 2;
 constexpr int more_tries = 3;
 
-double area(Size size) { return static_cast<double>(size.width) * size.height; }
-
 /// A target that a patch fits in: what is added is made, and cut off in the end.
 Target padded(const Target& target, Size size) {
   const auto wider = [&](const Image& map) {

@@ -7,6 +7,7 @@
 
 #include "classic/pixel_match.h"
 #include "core/threads.h"
+#include "signal/squared_distance.h"
 #include "signal/united.h"
 
 namespace gramloom::pixel {
@@ -14,12 +15,6 @@ namespace {
 
 constexpr double near_known = 16;     // pixels
 constexpr double most_samples = 3e5;  // of an exemplar that is searched in full
-
-float squared_distance(const float* a, const float* b, std::size_t count) {
-  float sum = 0;
-  for (std::size_t i = 0; i < count; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return sum;
-}
 
 /// The guide's channels, then their means over squares of this reach; of the last `shares` again
 /// themselves.
@@ -155,8 +150,9 @@ float Aim::guide_error(const Level& level, int sample, int x, int y) const {
   const float *wanted = guide.at(x, y),
               *there = level.guide.pixels.data() + static_cast<std::size_t>(sample) * channels;
   const float squared_weight = *map_at(weight, x, y);
-  return 0.5f * (squared_weight * squared_distance(wanted, there, own) +
-                 std::min(squared_weight, 1.0f) * squared_distance(wanted + own, there + own, own));
+  return 0.5f * (squared_weight * gramloom::squared_distance(wanted, there, own) +
+                 std::min(squared_weight, 1.0f) *
+                     gramloom::squared_distance(wanted + own, there + own, own));
 }
 
 int level_count(int asked, const Task& task) {

@@ -4,17 +4,12 @@
 #include <cmath>
 
 #include "core/threads.h"
+#include "signal/squared_distance.h"
 
 namespace gramloom::pixel {
 namespace {
 
 constexpr std::size_t most_cells = 64;
-
-float squared_distance(const float* a, const float* b, std::size_t count) {
-  float sum = 0;
-  for (std::size_t i = 0; i < count; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return sum;
-}
 
 }  // namespace
 
@@ -39,7 +34,8 @@ GuideCells::GuideCells(const Level& level, Random random)
     const float* centre = guide_of(some[next]);
     centres_.insert(centres_.end(), centre, centre + channels_);
     for (std::size_t i = 0; i < some.size(); ++i)
-      distance[i] = std::min(distance[i], squared_distance(guide_of(some[i]), centre, channels_));
+      distance[i] =
+          std::min(distance[i], gramloom::squared_distance(guide_of(some[i]), centre, channels_));
     next = static_cast<std::size_t>(std::ranges::max_element(distance) - distance.begin());
   }
   std::vector<std::uint8_t> cell(static_cast<std::size_t>(level.count()));
@@ -57,7 +53,8 @@ std::size_t GuideCells::nearest(const float* guide) const {
   std::size_t best = 0;
   float least = INFINITY;
   for (std::size_t i = 0; i * channels_ < centres_.size(); ++i) {
-    const float distance = squared_distance(guide, centres_.data() + i * channels_, channels_);
+    const float distance =
+        gramloom::squared_distance(guide, centres_.data() + i * channels_, channels_);
     if (distance < least) {
       least = distance;
       best = i;

@@ -13,8 +13,6 @@ namespace gramloom {
 
 namespace {
 
-std::size_t to_size(int value) { return static_cast<std::size_t>(value); }
-
 struct QuiltWork {
   const QuiltRules& rules;
   const QuiltMaterial& material;

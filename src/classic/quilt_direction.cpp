@@ -13,8 +13,6 @@ namespace {
 /// Above every sum of squares; sums with it stay finite.
 constexpr float unusable = 1e37f;
 
-std::size_t to_size(int value) { return static_cast<std::size_t>(value); }
-
 }  // namespace
 
 QuiltDirection::QuiltDirection(const Exemplar& exemplar, const Image& guide, const Image& weight,

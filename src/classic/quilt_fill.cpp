@@ -16,8 +16,6 @@ namespace {
 /// How much a pixel that stays counts beside one that may change.
 constexpr float firm_weight = 4;
 
-std::size_t to_size(int value) { return static_cast<std::size_t>(value); }
-
 /// How much a pixel counts as overlap: 1 where it may change; where it may not, more beside those
 /// that may, as no cut can hide what doesn't fit there, and less with its distance from them down
 /// to 0 at `reach`. Axes that wrap do so here.

@@ -7,9 +7,7 @@
 
 namespace gramloom {
 
-namespace {
-std::size_t to_size(int value) { return static_cast<std::size_t>(value); }
-}  // namespace
+namespace {}  // namespace
 
 QuiltGuide::QuiltGuide(const Image& exemplar, Image canvas, Size patch)
     : canvas_(std::move(canvas)),

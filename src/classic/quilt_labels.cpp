@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/threads.h"
+#include "signal/squared_distance.h"
 #include "signal/united.h"
 
 namespace gramloom {
@@ -18,18 +19,10 @@ constexpr int smallest_patch = 6;
 /// common, in terms of the variance.
 constexpr float plain = 2;
 
-std::size_t to_size(int value) { return static_cast<std::size_t>(value); }
-
 struct Label {
   std::vector<float> value;
   std::vector<Source> pixels;  // of the exemplar, those that may be used
 };
-
-float squared_distance(const float* a, const float* b, int channels) {
-  float sum = 0;
-  for (int c = 0; c < channels; ++c) sum += (a[c] - b[c]) * (a[c] - b[c]);
-  return sum;
-}
 
 /// The values of the exemplar's guide; none where there are many.
 std::vector<Label> find_labels(const Exemplar& exemplar) {
@@ -57,7 +50,7 @@ std::vector<int> find_missed(const Quilt& quilt, const QuiltLabels& target,
       for (int x = 0; x < size.width; ++x) {
         if (!mask.empty() && *mask.at(x, y) < 0.5f) continue;
         const float* wanted = target.guide.at(x, y);
-        const int channels = target.guide.channels;
+        const std::size_t channels = to_size(target.guide.channels);
         const float weight = target.weight.empty() ? 1 : *map_at(target.weight, x, y);
         const Source from = *quilt.source.at(x, y);
         const float has = squared_distance(
@@ -102,7 +95,7 @@ Source find_pixel(const Quilt& quilt, const Exemplar& exemplar, const Label& lab
     const Source there = *quilt.source.at(at_x, at_y);
     const int from_x = static_cast<int>(there.x), from_y = static_cast<int>(there.y);
     if (squared_distance(exemplar.guide.at(from_x, from_y), label.value.data(),
-                         exemplar.guide.channels) > 0)
+                         to_size(exemplar.guide.channels)) > 0)
       continue;
     beside.push_back(quilt.canvas.at(at_x, at_y));
     const Source next(from_x - dx, from_y - dy);
@@ -115,7 +108,7 @@ Source find_pixel(const Quilt& quilt, const Exemplar& exemplar, const Label& lab
     float sum = 0;
     const float* pixel = exemplar.image.at(static_cast<int>(s.x), static_cast<int>(s.y));
     for (const float* other : beside)
-      sum += squared_distance(pixel, other, exemplar.image.channels);
+      sum += squared_distance(pixel, other, to_size(exemplar.image.channels));
     return sum;
   });
 }

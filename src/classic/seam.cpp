@@ -6,8 +6,6 @@ namespace gramloom {
 
 namespace {
 
-std::size_t to_size(int value) { return static_cast<std::size_t>(value); }
-
 /// The pixel `along` a side and `depth` pixels in from it.
 struct Side {
   bool vertical;  // left or right

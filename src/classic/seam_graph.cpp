@@ -9,8 +9,6 @@ namespace gramloom {
 
 namespace {
 
-std::size_t to_size(int value) { return static_cast<std::size_t>(value); }
-
 /// The patch's pixels, and what a cut between two of them costs.
 class Seam {
  public:

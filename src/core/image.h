@@ -13,6 +13,13 @@ struct Size {
   friend bool operator==(const Size&, const Size&) = default;
 };
 
+/// In pixels.
+inline double area(Size size) { return static_cast<double>(size.width) * size.height; }
+
+/// An index or a count, which is never negative, as containers have them.
+inline std::size_t to_size(int value) { return static_cast<std::size_t>(value); }
+inline std::size_t pixel_count(Size size) { return to_size(size.width) * to_size(size.height); }
+
 /// A picture in memory: row-major, channels interleaved, float32.
 /// Integer files map to [0, 1]; float files keep their values. Values stay as encoded in the file
 /// (no change of gamma). An image is made with at least one pixel and one channel, or it is empty.

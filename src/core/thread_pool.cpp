@@ -12,11 +12,11 @@ namespace {
 thread_local bool inside_work = false;
 
 /// Turns of a wait before a thread sleeps: some ten microseconds, less than waking it costs.
-constexpr int turns = 1000;
+constexpr int checks = 1000;
 
 /// Back when `value` is not `old` any more.
 void await_change(const std::atomic<int>& value, int old) {
-  for (int i = 0; i < turns; ++i) {
+  for (int i = 0; i < checks; ++i) {
     if (value != old) return;
 #ifdef __x86_64__
     __builtin_ia32_pause();

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 constexpr const char* key = "gramloom:coordinates";  // "256x256 300x200"
 constexpr int most_integer = 65535;
 
-std::string to_text(const std::vector<Size>& pictures) {
+std::string sizes_to_text(const std::vector<Size>& pictures) {
   std::string text;
   for (const Size size : pictures)
     text += fmt::format("{}{}x{}", text.empty() ? "" : " ", size.width, size.height);
@@ -80,7 +80,7 @@ std::string write_arrangement(const fs::path& folder, const std::string& name,
   const std::string file = name + "_coordinates.tif";
   write_image(folder / file, image,
               {integers ? PixelType::uint16 : PixelType::float32, "", {"x", "y", "picture"}},
-              {{key, to_text(arrangement.pictures)}});
+              {{key, sizes_to_text(arrangement.pictures)}});
   return file;
 }
 

@@ -60,7 +60,7 @@ Planes padded(const Planes& inner, Tile wraps) {
   return outer;
 }
 
-Planes convolution(const InferenceModel& model, const std::string& name, const Planes& input) {
+Planes convolved(const InferenceModel& model, const std::string& name, const Planes& input) {
   const std::vector<float>& bias = model.values(name + ".bias");
   const float* weight = model.values(name + ".weight").data();
   const Planes around = padded(input, model.description.wraps);
@@ -122,11 +122,11 @@ Image infer(const InferenceModel& model, const std::vector<double>& pose) {
   Planes planes(sizes.front(), description.hidden.front());
   planes.values = linear(model, "start", values);
   for (std::size_t k = 0; k < sizes.size(); ++k) {
-    planes = convolution(model, fmt::format("layers.{}", k), planes);
+    planes = convolved(model, fmt::format("layers.{}", k), planes);
     activate(planes.values);
     if (k + 1 < sizes.size()) planes = enlarged(planes, sizes[k + 1], description.wraps);
   }
-  planes = convolution(model, "out", planes);
+  planes = convolved(model, "out", planes);
 
   Image picture(description.size, description.channels);
   for (int c = 0; c < picture.channels; ++c) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int64_t most_samples = 65536;
 
-constexpr Metric list[]{
+constexpr Metric list_for_maps[]{
     {"normal_angle", "maps",
      "how the surface leans: distance of the normals' angles to nine directions, in degrees",
      "from 0; 0 is equal", false, "Rabin, Peyre, Delon, Bernot 2011 (sliced, over directions)",
@@ -135,7 +135,7 @@ double step_distance(const Image& exemplar, const Image& map, int channel) {
 
 }  // namespace
 
-std::span<const Metric> map_metrics() { return list; }
+std::span<const Metric> map_metrics() { return list_for_maps; }
 
 std::vector<std::pair<std::string_view, double>> score_map(const Image& exemplar, const Image& map,
                                                            MapKind kind) {

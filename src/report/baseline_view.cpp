@@ -46,11 +46,6 @@ std::string kept_before(const RunOnDisk& run, const ComparisonRecord& comparison
   return kept.generic_string();
 }
 
-std::string label_of(const std::string& job, const std::string& file) {
-  const std::string map = map_of_file(job, fs::path(file).filename().string());
-  return map.empty() ? "picture" : map;
-}
-
 }  // namespace
 
 std::optional<ComparisonRecord> read_comparison(const RunOnDisk& run, Json& trouble) {
@@ -74,7 +69,7 @@ Json baseline_job(const RunOnDisk& run, const ComparisonRecord& comparison, cons
                   const std::function<double(const std::string&)>& white, Json& trouble) {
   Json pictures = Json::array();
   for (const ChangedPicture& picture : job.pictures) {
-    const std::string label = label_of(job.job, picture.now);
+    const std::string label = label_of_file(job.job, picture.now);
     try {
       const std::string kept = kept_before(run, comparison, picture);
       pictures.push_back(

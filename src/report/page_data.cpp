@@ -150,12 +150,6 @@ ShownExemplar read_source(const RunOnDisk& run, const std::string& name, Json& t
   return source;
 }
 
-// What the page calls a job's file.
-std::string label_of(const std::string& job, const std::string& file) {
-  const std::string map = map_of_file(job, file);
-  return map.empty() ? "picture" : map;
-}
-
 Json pictures_of(const RunOnDisk& run, const JobOnDisk& job, const ShownExemplar& source,
                  Json& trouble) {
   Json pictures = Json::array();
@@ -163,7 +157,7 @@ Json pictures_of(const RunOnDisk& run, const JobOnDisk& job, const ShownExemplar
     try {
       if (fs::path(name).filename() != name) throw Error("{}: {} is elsewhere", job.name, name);
       const std::string path = (fs::path(job.name).parent_path() / name).generic_string();
-      const std::string label = label_of(job.name, name);
+      const std::string label = label_of_file(job.name, name);
       pictures.push_back(
           {{"label", label}, {"file", shown_file(run.folder, path, source.white_of_view(label))}});
     } catch (const std::exception& error) {

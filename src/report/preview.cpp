@@ -21,12 +21,6 @@ float srgb_curve(float v) {
   return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f;
 }
 
-bool is_older(const fs::path& file, const fs::path& than) {
-  std::error_code error;
-  const auto time = fs::last_write_time(file, error);
-  return error || time < fs::last_write_time(than, error);
-}
-
 void create_folders(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -34,6 +28,12 @@ void create_folders(const fs::path& folder) {
 }
 
 }  // namespace
+
+bool is_older(const fs::path& file, const fs::path& than) {
+  std::error_code error;
+  const auto time = fs::last_write_time(file, error);
+  return error || time < fs::last_write_time(than, error);
+}
 
 double white_of(const ImageFile& file) {
   const PixelType type = file.encoding.pixel_type;

@@ -18,6 +18,9 @@ Image preview(const ImageFile& file, double white);
 /// Whether browsers show a file of this name.
 bool browsers_show(const std::filesystem::path& file);
 
+/// Whether a file that is made of another one is missing, or older than that.
+bool is_older(const std::filesystem::path& file, const std::filesystem::path& than);
+
 /// Where the preview of a picture is, both from the run's folder on: page/FILE.png.
 std::filesystem::path preview_file(const std::filesystem::path& file);
 

@@ -70,12 +70,6 @@ PackedHeight pack_height(const Image& map) {
   return {data_url(".png", encoded_image(".png", packed, {})), static_cast<double>(range)};
 }
 
-bool is_older(const fs::path& file, const fs::path& than) {
-  std::error_code error;
-  const auto time = fs::last_write_time(file, error);
-  return error || time < fs::last_write_time(than, error);
-}
-
 // Whether a browser can take the file as it is.
 bool is_small(const fs::path& file) {
   std::error_code ignored;

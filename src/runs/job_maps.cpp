@@ -16,6 +16,11 @@ std::string map_of_file(const std::string& job, const std::string& file) {
   return stem.starts_with(own) ? stem.substr(own.size()) : "";
 }
 
+std::string label_of_file(const std::string& job, const std::filesystem::path& file) {
+  const std::string map = map_of_file(job, file.filename().string());
+  return map.empty() ? "picture" : map;
+}
+
 std::string material_map_of(const JobRecord& record, const std::string& map) {
   if (record.normals.contains(map)) return "normal";
   const Json& settings = record.settings;

@@ -15,8 +15,8 @@ constexpr int tries = 4;
 constexpr int lanes = 8;
 typedef float Lanes __attribute__((vector_size(lanes * sizeof(float)), aligned(4), may_alias));
 
-GRAMLOOM_INLINE float squared_distance(const Image& a, int ax, int ay, const Image& b, int bx,
-                                       int by) {
+GRAMLOOM_INLINE float distance_of_patches(const Image& a, int ax, int ay, const Image& b, int bx,
+                                          int by) {
   Lanes sums = {};
   for (int y = 0; y < field_patch; ++y) {
     const Lanes* u = reinterpret_cast<const Lanes*>(a.at(ax, ay + y));
@@ -38,7 +38,7 @@ GRAMLOOM_SIMD void search_leaves(PatchField& field, int y, const Image& image,
     float best = std::numeric_limits<float>::infinity();
     for (std::int64_t i = tree.first_of(leaf); i < end; ++i) {
       const PatchOrigin o = tree.origin(i);
-      const float distance = squared_distance(image, x, y, exemplar, o.x, o.y);
+      const float distance = distance_of_patches(image, x, y, exemplar, o.x, o.y);
       if (distance >= best) continue;
       best = distance;
       field.nearest[field.index(x, y)] = o;

@@ -9,6 +9,7 @@ namespace gramloom {
 /// Patches that are compared as wholes: 8×8 pixels of 4 features (see patch_features.h).
 inline constexpr int field_patch = 8;
 inline constexpr int field_features = 4;
+inline constexpr float patch_area = field_patch * field_patch;
 
 /// Number of patches of an image in each direction.
 Size patch_origins(Size image);

@@ -10,10 +10,6 @@ namespace gramloom {
 
 namespace {
 
-std::size_t area(Size size) {
-  return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
-}
-
 /// The window of field_patch + 1 values about i, cut at the ends of a line.
 struct Window {
   int low, high;
@@ -64,9 +60,9 @@ struct ShiftCounts {
   ShiftCounts(Size shifts, Size origins)
       : width((shifts.width + side - 1) / side * side),
         rows((origins.height + 3 * side) / side * side),
-        counts(area({width, rows})) {}
-  int* at(int y) { return counts.data() + area({width, y % rows}); }
-  const int* at(int y) const { return counts.data() + area({width, y % rows}); }
+        counts(pixel_count({width, rows})) {}
+  int* at(int y) { return counts.data() + pixel_count({width, y % rows}); }
+  const int* at(int y) const { return counts.data() + pixel_count({width, y % rows}); }
 };
 
 /// Calls f(row of squares, counts) for all rows of the penalty's squares, when their shifts are
@@ -79,7 +75,7 @@ void for_each_square_row(const PatchPenalty& penalty, const PatchField& field, F
   const auto finish_down_to = [&](int shift) {
     for (; next >= 0 && next * side >= shift; --next) {
       f(next, std::as_const(counts));
-      std::fill_n(counts.at(next * side), area({counts.width, side}), 0);
+      std::fill_n(counts.at(next * side), pixel_count({counts.width, side}), 0);
     }
   };
   for (int y = 0; y < field.size.height; ++y) {
@@ -111,11 +107,11 @@ void approach_square_row(PatchPenalty& penalty, int row, const ShiftCounts& coun
 }  // namespace
 
 PatchPenalty::PatchPenalty(Size field_, Size origins_)
-    : field(field_), origins(origins_), of_origin(area(origins)), of_shift(shifts()) {}
+    : field(field_), origins(origins_), of_origin(pixel_count(origins)), of_shift(shifts()) {}
 
 std::vector<float> usage(const PatchField& field, Size origins) {
   const auto width = static_cast<std::size_t>(origins.width);
-  std::vector<float> used(area(origins)), rows(used.size());
+  std::vector<float> used(pixel_count(origins)), rows(used.size());
   const auto patches = field.confidence.empty()
                            ? std::ssize(field.nearest)
                            : std::ranges::count_if(field.confidence, [](float c) { return c > 0; });

@@ -15,7 +15,7 @@ typedef float Features
 typedef std::int8_t Whole __attribute__((vector_size(field_features), aligned(1), may_alias));
 
 constexpr int quarter = field_patch / 2;
-constexpr int band_rows = 32;
+constexpr int rows_at_once = 32;
 
 /// The whole numbers of the quarters whose upper left pixels are the first `count` of a row.
 GRAMLOOM_SIMD void sketch_quarters(const Image& features, int y, const SketchScale& scale,
@@ -97,7 +97,7 @@ std::vector<PatchSketch> sketch_patches(const Image& features, const SketchScale
   const Size size = patch_origins(features.size());
   const auto width = static_cast<std::size_t>(size.width);
   std::vector<PatchSketch> sketches(width * static_cast<std::size_t>(size.height));
-  parallel_for(size.height, band_rows, [&](std::int64_t first, std::int64_t last) {
+  parallel_for(size.height, rows_at_once, [&](std::int64_t first, std::int64_t last) {
     sketch_rows(features, scale, static_cast<int>(first), static_cast<int>(last),
                 sketches.data() + static_cast<std::size_t>(first) * width);
   });

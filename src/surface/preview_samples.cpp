@@ -8,7 +8,7 @@ namespace gramloom {
 
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
+using std::numbers::pi_v;
 
 float fraction(float v) { return v - std::floor(v); }
 
@@ -25,7 +25,7 @@ Vec2 even_point(float i) { return {fraction(i * 0.7548777f), fraction(i * 0.5698
 
 // A point of a disc of radius 1 for one of a square, areas in proportion.
 Vec2 on_disc(const Vec2& square) {
-  const float r = std::sqrt(square.u), angle = 2 * pi * square.v;
+  const float r = std::sqrt(square.u), angle = 2 * pi_v<float> * square.v;
   return {r * std::cos(angle), r * std::sin(angle)};
 }
 

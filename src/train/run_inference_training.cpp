@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The share of the learning rate: rising over 50 steps, then falling as a cosine to none.
-double rate_at(int step, int steps) {
+double cosine_rate(int step, int steps) {
   return std::min(1.0, (step + 1) / 50.0) * 0.5 * (1 + std::cos(std::numbers::pi * step / steps));
 }
 
@@ -105,7 +105,7 @@ class InferenceTraining {
     const at::Tensor batch = at::tensor(chosen, at::kLong);
     for (auto& group : optimiser_.param_groups())
       static_cast<torch::optim::AdamOptions&>(group.options())
-          .lr(recipe.learning_rate * rate_at(next_step_, recipe.steps));
+          .lr(recipe.learning_rate * cosine_rate(next_step_, recipe.steps));
     const InferenceLoss terms =
         inference_loss(net_->forward(pairs_.poses.index_select(0, batch)),
                        pairs_.pictures.index_select(0, batch), lesson_.description.wraps);

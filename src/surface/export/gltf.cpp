@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 // The standard's numbers.
 constexpr int float_type = 5126, unsigned_short = 5123;
 constexpr int vertices = 34962, indices = 34963;
-constexpr int linear = 9729, linear_mipmap_linear = 9987;
+constexpr int linear_filter = 9729, linear_mipmap_filter = 9987;
 constexpr int repeat = 10497, mirrored_repeat = 33648;
 
 fs::path with_suffix(const fs::path& stem, const std::string& suffix) {
@@ -176,8 +176,8 @@ std::vector<fs::path> write_gltf(const fs::path& stem, const MaterialSet& materi
                   {"textures", pictures.textures},
                   {"images", pictures.images},
                   {"samplers",
-                   {{{"magFilter", linear},
-                     {"minFilter", linear_mipmap_linear},
+                   {{{"magFilter", linear_filter},
+                     {"minFilter", linear_mipmap_filter},
                      {"wrapS", wrap(tiles_x(material.tile))},
                      {"wrapT", wrap(tiles_y(material.tile))}}}},
                   {"accessors", geometry.accessors},
