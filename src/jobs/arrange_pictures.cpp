@@ -13,14 +13,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* mark = "gramloom:arranged";
+constexpr const char* arranged_mark = "gramloom:arranged";
 
 void check_output_file(const ArrangeWork& work) {
   std::vector<InputFile> read{{work.coordinates, "holds the coordinates"}};
   for (const fs::path& picture : work.pictures) read.push_back({picture, "is to be arranged"});
   try {
     stored_type(work.output.extension().string(), PixelType::uint8);
-    check_replaced(work.output, ProtectedFiles(read), mark);
+    check_replaced(work.output, ProtectedFiles(read), arranged_mark);
   } catch (const Error& error) {
     throw ConfigError("arrange: {}", error.what());
   }
@@ -87,7 +87,7 @@ std::vector<std::string> arrange_pictures(const ArrangeWork& work) {
   check_exact(work, encoding.pixel_type);
   check_pictures(work, arrangement, pictures);
   return write_image(work.output, arranged(arrangement.source, pictures), encoding,
-                     {{mark, work.coordinates.filename().string()}});
+                     {{arranged_mark, work.coordinates.filename().string()}});
 }
 
 }  // namespace gramloom

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* mark = "gramloom:filled";
+constexpr const char* fill_mark = "gramloom:filled";
 
 void check_output_file(const FillWork& work, const Config& config) {
   try {
@@ -20,7 +20,7 @@ void check_output_file(const FillWork& work, const Config& config) {
     if (is_lossy(work.output.extension().string()))
       throw Error("{} would not keep what is left as it is: choose another format",
                   work.output.string());
-    check_result(work.output, config, mark);
+    check_result(work.output, config, fill_mark);
   } catch (const Error& error) {
     throw ConfigError("fill: {}", error.what());
   }
@@ -71,7 +71,7 @@ std::vector<std::string> fill_picture(const FillWork& work, const Control& contr
   check_possible(work, method, size_of(request));
   const Texture texture = finished_texture(method, request, control);
   Metadata metadata = std::move(loaded.metadata);
-  metadata[mark] = version();
+  metadata[fill_mark] = version();
   std::vector<std::string> notes = std::move(loaded.notes);
   for (const std::string& note :
        write_image(work.output, texture.image, files.front().encoding, metadata))

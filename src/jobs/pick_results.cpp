@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* mark = "picked.json";
+constexpr const char* picked_mark = "picked.json";
 
 // A picture and its maps, and the config that makes them.
 struct Pick {
@@ -201,7 +201,7 @@ using Hashes = std::map<std::string, std::string>;
 Hashes earlier_files(const fs::path& output) {
   Hashes files;
   try {
-    const Json list = read_json(output / mark);
+    const Json list = read_json(output / picked_mark);
     for (const auto& [file, hash] : list.at("files").items()) {
       const fs::path path = fs::path(file).lexically_normal();
       if (path.is_relative() && !path.empty() && *path.begin() != "..")
@@ -241,14 +241,14 @@ void refuse_what_is_not_ours(const PickWork& work, const Hashes& before, const H
 void write_mark(const PickWork& work, const Hashes& files) {
   const Json list{
       {"gramloom", version()}, {"run", fs::absolute(work.run).generic_string()}, {"files", files}};
-  write_text(work.output / mark, to_text(list, 2) + "\n");
+  write_text(work.output / picked_mark, to_text(list, 2) + "\n");
 }
 
 }  // namespace
 
 std::vector<fs::path> pick_results(const PickWork& work) {
   const std::vector<Pick> picks = picks_of(work);
-  check_marked_folder({"pick", work.run, work.output, mark});
+  check_marked_folder({"pick", work.run, work.output, picked_mark});
   const Hashes before = earlier_files(work.output), after = hashes_of(work, picks);
   refuse_what_is_not_ours(work, before, after);
   create_folder(work.output);
