@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <thread>
 
+#include "jobs/runner.h"
+
 namespace gramloom {
 
 void add_config_options(CLI::App& command, ConfigOptions& options) {
@@ -44,7 +46,7 @@ CLI::Option* add_spread_options(CLI::App& command, SpreadOptions& options) {
       .add_option("--jobs", options.jobs,
                   "so many jobs at once, each in a process of its own; 0: as many as threads")
       ->type_name("N")
-      ->check(CLI::Range(0, 1024));
+      ->check(CLI::Range(0, most_jobs));
   return shard;
 }
 

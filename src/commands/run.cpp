@@ -7,7 +7,6 @@
 #include "commands/end_run.h"
 #include "core/error.h"
 #include "core/spinning.h"
-#include "core/threads.h"
 #include "io/text_file.h"
 #include "jobs/baseline_compare.h"
 #include "jobs/config.h"
@@ -85,19 +84,12 @@ bool has_neural_jobs(const Config& config) {
 }
 
 // How the jobs are spread over processes. Throws ConfigError.
-void spread(const RunArguments& arguments, const Config& config, RunOptions& options) {
-  const SpreadOptions& asked = arguments.spread;
-  if (arguments.shard->count() > 0) try {
-      options.shard = asked.shard.empty() ? shard_of_slurm() : parse_shard(asked.shard);
-    } catch (const Error& error) {
-      throw ConfigError("--shard: {}", error.what());
-    }
+void spread_jobs(const RunArguments& arguments, const Config& config, RunOptions& options) {
+  std::optional<std::string> shard;
+  if (arguments.shard->count() > 0) shard = arguments.spread.shard;
+  spread(options, config, shard, arguments.spread.jobs);
   if (options.shard && !arguments.baseline.empty())
     throw ConfigError("--baseline compares a whole run: not with --shard");
-  options.jobs = asked.jobs > 0 ? asked.jobs : thread_count();
-  if (options.jobs > 1 && !std::filesystem::is_regular_file(config.file))
-    throw ConfigError("--jobs {}: {} is no file that each of its processes can read", options.jobs,
-                      config.file.string());
 }
 
 // Joins the processes that make each texture together with this one, if there are any. Throws
@@ -126,7 +118,7 @@ ExitCode run_config(const RunArguments& arguments) {
     bound_spinning(arguments.words);
   RunOptions options = begin_run(config, arguments.output, arguments.resume, arguments.words);
   options.only = arguments.config.only;
-  spread(arguments, config, options);
+  spread_jobs(arguments, config, options);
   if (arguments.worker > 0) {
     work_for_parent(config, options);
     return all_done;

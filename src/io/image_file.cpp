@@ -5,11 +5,13 @@
 #include "core/modules.h"
 #include "io/image_algorithms.h"
 #include "io/image_rows.h"
+#include "io/pictures_in_memory.h"
 #include "io/pictures_module.h"
 
 namespace gramloom {
 
 ImageFile read_image(const std::filesystem::path& path) {
+  if (const ImageFile* picture = picture_in_memory(path)) return *picture;
   return open_module<PicturesModule>().read(path);
 }
 

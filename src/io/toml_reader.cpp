@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "io/pictures_in_memory.h"
+
 namespace gramloom {
 
 namespace {
@@ -192,6 +194,7 @@ fs::path read_path(const toml::node& node, const Slot& slot, const std::string& 
   const fs::path path = read_string(node, slot, allowed);
   if (path.empty()) return path;  // no file is wanted
   const fs::path file = (folder_of(slot.region) / path).lexically_normal();
+  if (picture_in_memory(file)) return file;
   std::error_code ignored;
   if (!fs::exists(file, ignored)) fail(slot.region, "there is no file {}", file.string());
   if (!fs::is_regular_file(file, ignored)) fail(slot.region, "{} is not a file", file.string());

@@ -92,6 +92,10 @@ void ProgressBar::show(double part, const std::string& text) {
 
 void ProgressBar::show_jobs(double parts, std::size_t done, std::size_t count,
                             const std::string& at_work) {
+  Progress progress;
+  progress.step = static_cast<std::int64_t>(done);
+  progress.steps = static_cast<std::int64_t>(count);
+  if (listener_) listener_(at_work, progress);
   if (style_ == ProgressStyle::quiet || count == 0) return;
   if (job_.empty()) start("run", 1, 1);
   const double part = parts / static_cast<double>(count);
@@ -103,7 +107,7 @@ void ProgressBar::show_jobs(double parts, std::size_t done, std::size_t count,
 }
 
 void ProgressBar::update(const Progress& progress) {
-  if (listener_) listener_(progress);
+  if (listener_) listener_(job_, progress);
   if (style_ == ProgressStyle::quiet) return;
   if (first_step_ < 0) {
     // A job that goes on from a checkpoint begins in the middle.

@@ -30,13 +30,13 @@ class ProgressBar {
 
   /// Job `number` of `count` begins.
   void start(const std::string& job, std::size_t number, std::size_t count);
-  /// The job that was begun last, with its number: "pebbles/quilting/seed1 (2/4)".
-  const std::string& job() const { return job_; }
   void update(const Progress& progress);
   /// Several jobs at once: so many are done, with parts of those at work, whose names follow.
   void show_jobs(double parts, std::size_t done, std::size_t count, const std::string& at_work);
-  /// Calls this for each update, too.
-  void listen(std::function<void(const Progress&)> listener) { listener_ = std::move(listener); }
+  /// Calls this for each update, too; of several jobs at once with their names, and as steps how
+  /// many are done.
+  using Listener = std::function<void(const std::string& job, const Progress& progress)>;
+  void listen(Listener listener) { listener_ = std::move(listener); }
   /// Gives complaints to this in place of standard error.
   void tell(std::function<void(const std::string&)> teller) { teller_ = std::move(teller); }
   /// A line that stays: how a job went. Not shown when quiet.
@@ -52,9 +52,9 @@ class ProgressBar {
   void clear();
 
   ProgressStyle style_;
-  std::function<void(const Progress&)> listener_;
+  Listener listener_;
   std::function<void(const std::string&)> teller_;
-  std::string job_;
+  std::string job_;  // that was begun last, with its number: "pebbles/quilting/seed1 (2/4)"
   Clock::time_point started_;
   Clock::time_point shown_;
   std::int64_t first_step_ = -1;

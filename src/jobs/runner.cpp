@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "core/threads.h"
 #include "jobs/folder_lock.h"
 #include "jobs/interruption.h"
 #include "jobs/one_job.h"
@@ -140,6 +141,21 @@ RunOptions run_options(const Config& config, const fs::path& output, bool resume
   options.resume = resume;
   options.command = command;
   return options;
+}
+
+void spread(RunOptions& options, const Config& config, const std::optional<std::string>& shard,
+            int jobs) {
+  if (shard) try {
+      options.shard = shard->empty() ? shard_of_slurm() : parse_shard(*shard);
+    } catch (const Error& error) {
+      throw ConfigError("--shard: {}", error.what());
+    }
+  if (jobs < 0 || jobs > most_jobs)
+    throw ConfigError("--jobs {}: allowed are 0 to {}", jobs, most_jobs);
+  options.jobs = jobs > 0 ? jobs : thread_count();
+  if (options.jobs > 1 && !fs::is_regular_file(config.file))
+    throw ConfigError("--jobs {}: {} is no file that each of its processes can read", options.jobs,
+                      config.file.string());
 }
 
 RunSummary run(const Config& config, const RunOptions& options, ProgressBar& bar) {

@@ -20,9 +20,10 @@ struct RunOptions {
   std::string only;                      // pattern of the jobs to do; "": all
   bool resume = false;                   // keep finished jobs, go on with unfinished ones
   std::function<bool()> stop;            // true once the user has asked to stop
-  std::vector<std::string> command;      // the command line, for run.json
+  std::vector<std::string> command;      // the command line, for run.json and for processes
   std::optional<Shard> shard;            // this process does a part of the jobs, others do the rest
   int jobs = 1;                          // so many at once, each in a process of its own
+  std::filesystem::path program;         // of these processes: gramloom; empty: this one
   std::shared_ptr<neural::Group> group;  // with these processes together; none: alone
   bool is_default_output = false;        // the user named no folder: it is for this config alone
   std::vector<InputFile> inputs;         // that must stay as they are, beside those of the config
@@ -31,6 +32,13 @@ struct RunOptions {
 /// Those of a run into `output`, or into the config's own folder where that is empty.
 RunOptions run_options(const Config& config, const std::filesystem::path& output, bool resume,
                        const std::vector<std::string>& command);
+
+inline constexpr int most_jobs = 1024;  // at once
+
+/// Spreads the jobs of a run over processes, as --shard and --jobs say. `shard`: "3/16", "" for
+/// what Slurm says, or none; `jobs`: so many at once, 0 for as many as threads. Throws ConfigError.
+void spread(RunOptions& options, const Config& config, const std::optional<std::string>& shard,
+            int jobs);
 
 /// How the jobs of a run went; `left` were not begun because the user asked to stop.
 struct RunSummary {

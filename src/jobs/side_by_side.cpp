@@ -123,8 +123,8 @@ class SideBySide {
       if (worker.process && worker.process->has_ended()) worker.process.reset();
       if (!worker.process)
         worker.process = std::make_unique<WorkerProcess>(
-            run_.options.command, std::max(1, thread_count() / run_.options.jobs),
-            worker_greeting(run_.config));
+            run_.options.program, run_.options.command,
+            std::max(1, thread_count() / run_.options.jobs), worker_greeting(run_.config));
     } catch (const Error& error) {
       settle(task, failure(task, error.what()));
       return;

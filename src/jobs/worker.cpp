@@ -33,7 +33,7 @@ void answer(const WorkerAnswer& answer) {
 // Tells the parent now and then how far a task is.
 class Teller {
  public:
-  void operator()(const Progress& progress) {
+  void operator()(const std::string&, const Progress& progress) {
     const auto now = std::chrono::steady_clock::now();
     if (progress.steps <= 0 || now - told_ < between_answers) return;
     told_ = now;

@@ -29,7 +29,7 @@ std::array<int, 2> make_pipe() {
 }
 
 // In the child, between fork and exec: only what may be called there.
-[[noreturn]] void become(char* const* words, int tasks, int answers) {
+[[noreturn]] void become(const char* program, char* const* words, int tasks, int answers) {
   setpgid(0, 0);  // Ctrl-C is for the parent, which tells its workers
   // An end that has the other's number already must not be closed by that one.
   if (tasks == worker_answers) tasks = dup(tasks);
@@ -38,7 +38,7 @@ std::array<int, 2> make_pipe() {
   else
     dup2(answers, worker_answers);
   dup2(tasks, STDIN_FILENO);
-  execv("/proc/self/exe", words);
+  execv(program, words);
   _exit(127);
 }
 
@@ -48,7 +48,8 @@ void close_end(int& end) {
 
 }  // namespace
 
-WorkerProcess::WorkerProcess(const std::vector<std::string>& words, int threads,
+WorkerProcess::WorkerProcess(const std::filesystem::path& program,
+                             const std::vector<std::string>& words, int threads,
                              const std::string& greeting) {
   std::vector<std::string> own = words;
   own.insert(own.begin() + 2, fmt::format("--worker={}", threads));
@@ -57,7 +58,9 @@ WorkerProcess::WorkerProcess(const std::vector<std::string>& words, int threads,
   pointers.push_back(nullptr);
   auto tasks = make_pipe(), answers = make_pipe();
   process_ = fork();
-  if (process_ == 0) become(pointers.data(), tasks[0], answers[1]);
+  if (process_ == 0)
+    become(program.empty() ? "/proc/self/exe" : program.c_str(), pointers.data(), tasks[0],
+           answers[1]);
   close(tasks[0]);
   close(answers[1]);
   tasks_ = tasks[1];

@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,9 +14,10 @@ namespace gramloom {
 /// A worker from its parent's side.
 class WorkerProcess {
  public:
-  /// Starts this program with the same words and what makes it a worker of so many threads. Throws
-  /// Error.
-  WorkerProcess(const std::vector<std::string>& words, int threads, const std::string& greeting);
+  /// Starts `program`, which is gramloom, or empty for this one, with these words of a run and what
+  /// makes it a worker of so many threads. Throws Error.
+  WorkerProcess(const std::filesystem::path& program, const std::vector<std::string>& words,
+                int threads, const std::string& greeting);
   /// Ends it.
   ~WorkerProcess();
   WorkerProcess(const WorkerProcess&) = delete;

@@ -20,8 +20,6 @@ namespace gramloom::python {
 
 namespace {
 
-using Arrays = std::map<std::string, py::object>;
-
 void use_threads(int threads) {
   try {
     gramloom::use_threads(threads);
@@ -35,41 +33,23 @@ std::string pixel_type_word(const py::object& dtype) {
   return std::string(to_word(pixel_type_of(dtype, "dtype")));
 }
 
-std::vector<Material> materials_of(const std::vector<py::object>& pictures,
-                                   const std::vector<Arrays>& maps) {
-  std::vector<Material> materials;
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    Material material{picture_of(pictures[i], "exemplar"), {}};
-    if (i < maps.size())
-      for (const auto& [name, array] : maps[i])
-        material.maps[name] = picture_of(array, fmt::format("the map '{}'", name));
-    materials.push_back(std::move(material));
-  }
-  return materials;
-}
-
-// Whether all of these arrays lack an axis of channels: then so does what is made of them.
-template <class Flat>
-bool all_flat(const std::vector<Material>& materials, Flat flat) {
-  for (const Material& material : materials)
-    if (!flat(material)) return false;
-  return true;
-}
-
-py::tuple make(const std::string& config, const std::vector<py::object>& pictures,
-               const std::vector<Arrays>& maps, int threads, const py::object& progress) {
+// `arrays`: by the names that the config has for them.
+py::tuple make(const std::string& config, const std::map<std::string, py::object>& arrays,
+               int threads, const py::object& progress) {
   use_threads(threads);
-  const std::vector<Material> materials = materials_of(pictures, maps);
+  PicturesInMemory::Pictures pictures;
+  bool flat = true;  // none has an axis for its one channel: then no result has
+  for (const auto& [name, array] : arrays) {
+    Picture picture = picture_of(array, name);
+    flat = flat && (picture.flat || picture.file.image.channels > 1);
+    pictures[name] = std::move(picture.file);
+  }
   Made made;
-  do_watched(progress, [&](Watch& watch) { made = synthesise(config, materials, watch); });
-  py::dict arrays;
-  for (const auto& [name, map] : made.maps)
-    arrays[py::str(name)] = array_of(map, all_flat(materials, [&](const Material& material) {
-                                       const auto own = material.maps.find(name);
-                                       return own == material.maps.end() || own->second.flat;
-                                     }));
-  const bool flat = all_flat(materials, [](const Material& m) { return m.picture.flat; });
-  return py::make_tuple(array_of(made.texture, flat), arrays);
+  do_watched(progress,
+             [&](Watch& watch) { made = synthesise(config, std::move(pictures), watch); });
+  py::dict maps;
+  for (const auto& [name, map] : made.maps) maps[py::str(name)] = array_of(map, flat);
+  return py::make_tuple(array_of(made.texture, flat), maps);
 }
 
 Tile tile_of(const std::string& word) {
@@ -113,16 +93,34 @@ std::vector<std::string> write(const std::string& file, const py::object& array)
   return write_image(file, picture.file.image, picture.file.encoding);
 }
 
-std::string text_of(const std::vector<KeyList>& lists, const std::string& title) {
-  std::string text;
-  for (const KeyList& list : lists) {
-    text += fmt::format("\n{} '{}': {}\n", title, list.name, list.summary);
-    for (const Key& key : list.keys) {
-      const std::string standard = default_text(key);
-      text += fmt::format("    {}{}: {}; {}\n", key.name, standard.empty() ? "" : " = " + standard,
-                          meaning_of(key), key.allowed);
-    }
+// What a texture is asked by tables of these keys.
+std::vector<KeyList> asked_by_tables() {
+  std::vector<KeyList> lists = direction_lists();
+  for (KeyList& list : table_lists())
+    if (list.name == "[[exemplar]]") lists.insert(lists.begin(), std::move(list));
+  lists.front().name = "exemplar";
+  return lists;
+}
+
+std::string text_of(const std::string& heading, const KeyList& list) {
+  std::string text = fmt::format("\n{}\n", heading);
+  for (const Key& key : list.keys) {
+    const std::string standard = default_text(key);
+    text += fmt::format("    {}{}: {}; {}\n", key.name, standard.empty() ? "" : " = " + standard,
+                        meaning_of(key), key.allowed);
   }
+  return text;
+}
+
+std::string documentation() {
+  std::string text;
+  for (const KeyList& list : asked_by_tables())
+    text += text_of(fmt::format("{} as a table", list.name), list);
+  for (const KeyList& list : method_lists())
+    text += text_of(fmt::format("kind '{}': {}", list.name, list.summary), list);
+  for (const KeyList& list : texture_lists())
+    text +=
+        text_of(fmt::format("kind 'procedural', texture '{}': {}", list.name, list.summary), list);
   return text;
 }
 
@@ -162,12 +160,13 @@ PYBIND11_MODULE(_gramloom, module) {
   module.def("synthesise", make);
   module.def("score", scores_of);
   const auto add_run = [&](const char* name, RunDone (*work)(const RunWork&, Watch&)) {
-    module.def(name,
-               [work](const std::string& config, const std::string& output, const std::string& only,
-                      bool resume, const std::vector<std::string>& set, int threads,
-                      const py::object& progress) {
-                 return done_run(work, {config, output, only, resume, set, threads}, progress);
-               });
+    module.def(name, [work](const std::string& config, const std::string& output,
+                            const std::string& only, bool resume,
+                            const std::vector<std::string>& set, int jobs,
+                            const std::optional<std::string>& shard, int threads,
+                            const py::object& progress) {
+      return done_run(work, {config, output, only, resume, set, jobs, shard, threads}, progress);
+    });
   };
   add_run("run", run);
   add_run("train", train);
@@ -176,9 +175,8 @@ PYBIND11_MODULE(_gramloom, module) {
   module.def("pixel_type", pixel_type_word);
   module.def("methods", [] { return to_text(to_json_value(method_lists())); });
   module.def("patterns", [] { return to_text(to_json_value(texture_lists())); });
-  module.def("documentation", [] {
-    return text_of(method_lists(), "kind") + text_of(texture_lists(), "kind 'procedural', texture");
-  });
+  module.def("tables", [] { return to_text(to_json_value(asked_by_tables())); });
+  module.def("documentation", documentation);
 }
 
 }  // namespace gramloom::python

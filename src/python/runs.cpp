@@ -1,6 +1,7 @@
 #include "python/runs.h"
 
 #include "core/error.h"
+#include "core/modules.h"
 #include "io/json_fields.h"
 #include "io/text_file.h"
 #include "jobs/model_entries.h"
@@ -18,12 +19,41 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The program of the same build, or of the same installation, as this module.
+fs::path program_file() {
+  const fs::path libraries = libraries_folder();
+  const fs::path built = libraries / "gramloom";
+  const fs::path installed = libraries.parent_path().parent_path() / "bin/gramloom";
+  for (const fs::path& file : {built, installed})
+    if (fs::is_regular_file(file)) return file;
+  throw ConfigError("jobs: there is no program to do them, neither {} nor {}", built.string(),
+                    installed.string());
+}
+
+// That does the same.
+std::vector<std::string> command_line(const RunWork& work, const std::string& command) {
+  std::vector<std::string> words{"gramloom", command, work.config.string()};
+  const auto add = [&](const std::string& option, const std::string& value) {
+    words.push_back(fmt::format("--{}={}", option, value));
+  };
+  if (!work.output.empty()) add("output", work.output);
+  if (!work.only.empty()) add("only", work.only);
+  for (const std::string& value : work.set) add("set", value);
+  if (work.resume) words.emplace_back("--resume");
+  if (work.threads > 0) add("threads", std::to_string(work.threads));
+  if (work.jobs != 1) add("jobs", std::to_string(work.jobs));
+  if (work.shard && work.shard->empty()) words.emplace_back("--shard");
+  if (work.shard && !work.shard->empty()) add("shard", *work.shard);
+  return words;
+}
+
 RunOptions options_of(const RunWork& work, const Config& config, const std::string& command,
                       Watch& watch) {
-  RunOptions options =
-      run_options(config, work.output, work.resume, {"gramloom." + command, work.config.string()});
+  RunOptions options = run_options(config, work.output, work.resume, command_line(work, command));
   options.only = work.only;
   options.stop = [&watch] { return watch.stopped(); };
+  spread(options, config, work.shard, work.jobs);
+  if (options.jobs > 1) options.program = program_file();
   return options;
 }
 
@@ -35,12 +65,19 @@ ProgressBar bar_of(RunDone& done) {
 }
 
 void report_to(Watch& watch, ProgressBar& bar) {
-  bar.listen([&](const Progress& progress) { watch.report(bar.job(), progress); });
+  bar.listen([&](const std::string& job, const Progress& p) { watch.report(job, p); });
+}
+
+Plan selected_jobs(const Config& config, const RunOptions& options) {
+  if (!options.shard) return list_jobs(config, options.only);
+  Plan plan = make_plan(config, options.only);
+  select_shard(plan, *options.shard);
+  return plan;
 }
 
 std::string records_of(const Config& config, const RunOptions& options) {
   auto records = Json::array();
-  for (const PlannedJob& planned : list_jobs(config, options.only).jobs) {
+  for (const PlannedJob& planned : selected_jobs(config, options).jobs) {
     const JobFiles files = job_files(options.output, planned.name);
     const auto record = planned.selected ? find_record(files.record) : std::nullopt;
     if (!record) continue;
@@ -55,11 +92,11 @@ std::string records_of(const Config& config, const RunOptions& options) {
 void do_jobs(const Config& config, const RunOptions& options, ProgressBar& bar, RunDone& done) {
   const RunSummary summary = gramloom::run(config, options, bar);
   if (summary.interrupted + summary.left > 0 || summary.unscored) throw Interrupted();
-  try {
-    write_page(options.output);
-  } catch (const Error& error) {
-    bar.complaint(fmt::format("no page: {}", first_line(error.what())));
-  }
+  if (!options.shard) try {
+      write_page(options.output);
+    } catch (const Error& error) {
+      bar.complaint(fmt::format("no page: {}", first_line(error.what())));
+    }
   done.records = records_of(config, options);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,9 @@ struct RunWork {
   std::string output;  // "": out/NAME
   std::string only;
   bool resume = false;
-  std::vector<std::string> set;  // "key=value"
+  std::vector<std::string> set;      // "key=value"
+  int jobs = 1;                      // of `run` alone, as is the next
+  std::optional<std::string> shard;  // "3/16", "" for what Slurm says; none: all
   int threads = 0;
 };
 

@@ -2,8 +2,8 @@
 
 #include <map>
 #include <string>
-#include <vector>
 
+#include "io/pictures_in_memory.h"
 #include "python/arrays.h"
 #include "python/watched_work.h"
 
@@ -15,15 +15,8 @@ struct Made {
   std::map<std::string, Stored> maps;
 };
 
-/// A picture with the maps of its surface.
-struct Material {
-  Picture picture;
-  std::map<std::string, Picture> maps;
-};
-
-/// Makes one texture as a job of a config does. `config`: its keys, with one [method].
-/// `exemplars`: pictures of one material; none for a method of formulas. Throws ConfigError for
-/// what the user must change, Interrupted, and Error when it fails.
-Made synthesise(const std::string& config, const std::vector<Material>& exemplars, Watch& watch);
+/// Makes the one texture of a config. `pictures`: those that it names and that are no files. Throws
+/// ConfigError for what the user must change, Interrupted, and Error when it fails.
+Made synthesise(const std::string& config, PicturesInMemory::Pictures pictures, Watch& watch);
 
 }  // namespace gramloom::python

@@ -11,7 +11,7 @@ SOURCE = pathlib.Path(__file__).parents[2]
 EXAMPLE = SOURCE / "examples/python/contact_sheet.py"
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/library.md"])
+@pytest.mark.parametrize("page", ["README.md", "docs/python.md"])
 def test_the_lines_of_the_documents(page, tmp_path):
     lines = re.findall(r"```python\n(import gramloom\n.*?)```",
                        (SOURCE / page).read_text("utf-8"), re.DOTALL)
@@ -21,7 +21,7 @@ def test_the_lines_of_the_documents(page, tmp_path):
     done = subprocess.run([sys.executable, "-c", "\n".join(lines)], cwd=tmp_path,
                           capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-    if page == "docs/library.md":
+    if page == "docs/python.md":
         assert "stsim2" in done.stdout and "histogram/seed1 done" in done.stdout
     assert gramloom.read_image(tmp_path / "texture.png").shape == (512, 512, 3)
 

@@ -29,14 +29,20 @@ try:
     gramloom.synthesise(exemplar, "neural", size=16, preset="gatys", network="none")
 except gramloom.ConfigError as error:
     print(error)
+open("c.toml", "w").write("method = [{ name = 'm', kind = 'procedural', texture = 'marble' }]")
+try:
+    gramloom.run("c.toml", jobs=2)
+except gramloom.ConfigError as error:
+    print(error)
 print(open("/proc/self/maps").read())
 """
     environment = {**os.environ, "PYTHONPATH": str(package.parent)}
     environment.pop("GRAMLOOM_MODELS", None)
-    done = subprocess.run([sys.executable, "-c", script], env=environment, capture_output=True,
-                          text=True, check=False)
+    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, env=environment,
+                          capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert f"(in {models} are own)" in done.stdout
+    assert f"nor {tmp_path}/bin/gramloom" in done.stdout
     for name in ("core", "signal", "io"):
         assert str(libraries / f"libgramloom_{name}.so") in done.stdout
     assert f"{BUILD}/libgramloom" not in done.stdout

@@ -1,5 +1,6 @@
 """run() and train() do what the command line does, and say what became of it."""
 import csv
+import json
 
 import gramloom
 import pytest
@@ -67,6 +68,32 @@ def test_a_run_leaves_what_the_command_line_leaves(quilts, tmp_path, command_lin
         assert len(list(csv.DictReader(file))) == 4
 
 
+def pictures_of(folder):
+    return {file.relative_to(folder): file.read_bytes() for file in folder.rglob("*.png")}
+
+
+def test_jobs_at_once_are_the_same(quilts, tmp_path):
+    gramloom.run(quilts, tmp_path / "one")
+    told = []
+    records = gramloom.run(quilts, tmp_path / "two", jobs=2, progress=told.append)
+    assert [record["status"] for record in records] == 4 * ["done"]
+    assert pictures_of(tmp_path / "two") == pictures_of(tmp_path / "one")
+    assert told and all(0 <= progress.step <= progress.steps == 4 for progress in told)
+    assert any("/seed" in progress.job for progress in told)
+    with open(tmp_path / "two/run.json", encoding="utf-8") as file:
+        assert json.load(file)["command"] == ["gramloom", "run", str(quilts),
+                                              f"--output={tmp_path / 'two'}", "--jobs=2"]
+
+
+def test_shards_together_are_the_whole_run(quilts, tmp_path, command_line):
+    gramloom.run(quilts, tmp_path / "one")
+    records = [record["name"] for k in (1, 2)
+               for record in gramloom.run(quilts, tmp_path / "all", shard=f"{k}/2")]
+    assert sorted(records) == ["e/h/seed1", "e/h/seed2", "e/q/seed1", "e/q/seed2"]
+    assert not (tmp_path / "all/index.html").exists()
+    assert pictures_of(tmp_path / "all") == pictures_of(tmp_path / "one")
+
+
 def test_the_folder_is_that_of_the_config_by_default(quilts, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     records = gramloom.run("c.toml", only="*/h/seed1", set={"method.h.kind": "histogram"})
@@ -98,6 +125,10 @@ def test_mistakes_are_said_as_on_the_command_line(quilts, tmp_path, config):
         gramloom.run(tmp_path / "none.toml")
     with pytest.raises(gramloom.ConfigError, match="--only nothing"):
         gramloom.run(quilts, tmp_path / "out", only="nothing")
+    with pytest.raises(gramloom.ConfigError, match="--jobs -1: allowed are 0 to 1024"):
+        gramloom.run(quilts, tmp_path / "out", jobs=-1)
+    with pytest.raises(gramloom.ConfigError, match="--shard: '3/2' is no shard"):
+        gramloom.run(quilts, tmp_path / "out", shard="3/2")
     with pytest.raises(gramloom.ConfigError, match=r"there is no \[\[model\]\] to train"):
         gramloom.train(quilts, tmp_path / "out")
     with pytest.raises(gramloom.Error, match="none.png"):

@@ -122,18 +122,20 @@ def test_scores_are_those_of_the_command_line(pebbles, tmp_path, command_line):
     ({"kind": "quiltin"}, "unknown kind 'quiltin' (did you mean 'quilting'?)"),
     ({"tile": "all"}, "unknown tile 'all'"),
     ({"size": (0, 8)}, "'size' = 0: allowed are"),
-    ({"size": None}, "no values of type NoneType"),
     ({"seed": -1}, "'seeds' = -1"),
     ({"name": "x"}, "name"),
     ({"threads": -1}, "threads = -1"),
     ({"patch_size": object()}, "no values of type object"),
     ({"dtype": "int32"}, "dtype: values of type int32: allowed are uint8"),
-    ({"maps": {"height": numpy.zeros((3, 3), "uint8")}}, "the map 'height' has 3×3 pixels"),
-    ({"exemplar": numpy.zeros((4, 4, 3))}, "exemplar: values of type float64"),
-    ({"exemplar": numpy.zeros((4,), "uint8")}, "an array of 1 dimensions"),
+    ({"maps": {"height": numpy.zeros((3, 3), "uint8")}},
+     "the map exemplar.maps.height has 3×3 pixels and its picture exemplar.image 48×40"),
+    ({"exemplar": numpy.zeros((4, 4, 3))}, "exemplar.image: values of type float64"),
+    ({"exemplar": numpy.zeros((4,), "uint8")}, "synthesise: 'image' is a list"),
+    ({"exemplar": numpy.zeros((4, 4, 3, 1), "uint8")}, "an array of 4 dimensions"),
     ({"exemplar": numpy.zeros((0, 4), "uint8")}, "empty"),
-    ({"exemplar": numpy.full((4, 4), numpy.nan, "float32")}, "exemplar: "),
-    ({"exemplar": None}, "synthesise: quilting"),
+    ({"exemplar": numpy.full((4, 4), numpy.nan, "float32")}, "exemplar.image: "),
+    ({"exemplar": None}, "synthesise: method 'quilting' needs an [[exemplar]]"),
+    ({"exemplar": "none.png"}, "synthesise: there is no file none.png"),
     ({"size": 65536}, "GB of memory"),
 ])
 def test_what_is_wrong_is_said(arguments, words, pebbles):
@@ -153,15 +155,26 @@ def test_a_score_of_other_channels_is_refused(pebbles):
         gramloom.score(pebbles, pebbles[:, :, 0])
 
 
+def test_every_table_is_an_argument():
+    assert {table["name"] for table in gramloom.tables()} == {"exemplar", "guide", "mix", "turn",
+                                                              "fill"}
+    assert all(table["name"] in inspect.signature(gramloom.synthesise).parameters
+               for table in gramloom.tables())
+
+
 def test_no_parameter_has_the_name_of_an_argument():
     named = set(inspect.signature(gramloom.synthesise).parameters) - {"parameters", "exemplar"}
     keys = {key["name"] for entry in gramloom.methods() + gramloom.patterns()
             for key in entry["parameters"]}
-    assert not named & keys
+    assert named & keys == {"turn"}  # of a procedural texture a number, else a table
+    marble = {"kind": "procedural", "texture": "marble", "size": 16, "tile": "none"}
+    assert (gramloom.synthesise(**marble, turn=90) != gramloom.synthesise(**marble)).any()
 
 
 def test_help_has_every_parameter():
     text = inspect.getdoc(gramloom.synthesise)
+    for key in (key for table in gramloom.tables() for key in table["parameters"]):
+        assert key["description"] in text
     for entry in gramloom.methods() + gramloom.patterns():
         assert f"'{entry['name']}': {entry['summary']}" in text
         for key in entry["parameters"]:

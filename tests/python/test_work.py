@@ -1,5 +1,6 @@
 """Long work: progress, Ctrl-C, other threads of Python, and what an import brings along."""
 import os
+import pathlib
 import signal
 import subprocess
 import sys
@@ -41,6 +42,43 @@ def test_interrupt_stops_a_run_that_can_go_on(pebbles, tmp_path, config):
     # A state goes on only with what it was begun with, so the rest is another job.
     records = gramloom.run(file, tmp_path / "out", resume=True, set={"iterations": 2})
     assert [record["status"] for record in records] == ["done", "done"]
+
+
+def children_of(process):
+    """Those that are at work, by /proc."""
+    found = []
+    for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        try:
+            state, parent = stat.read_text(encoding="utf-8").rpartition(")")[2].split()[:2]
+        except OSError:
+            continue  # it has ended
+        if int(parent) == process and state != "Z":
+            found.append(stat)
+    return found
+
+
+def test_interrupt_stops_the_processes_of_a_run(pebbles, tmp_path, config):
+    gramloom.write_image(tmp_path / "e.png", pebbles)
+    file = config("seeds = [1, 2]\nsize = 400\nscores = false\n[[exemplar]]\nname = 'e'\n"
+                  "image = 'e.png'\n[[method]]\nname = 'long'\nkind = 'patchmatch'\n"
+                  "iterations = 1000\n")
+    seen = []
+
+    def look_and_interrupt():
+        deadline = time.monotonic() + 60
+        while len(children_of(os.getpid())) < 2 and time.monotonic() < deadline:
+            time.sleep(0.05)
+        seen.extend(children_of(os.getpid()))
+        os.kill(os.getpid(), signal.SIGINT)
+
+    other = threading.Thread(target=look_and_interrupt)
+    other.start()
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        gramloom.run(file, tmp_path / "out", jobs=2)
+    other.join()
+    assert len(seen) == 2 and not children_of(os.getpid())
+    assert time.monotonic() - start < 60
 
 
 def test_other_threads_run_meanwhile(pebbles):

@@ -6,8 +6,8 @@
     gramloom.write_image("texture.png", texture)
 
 synthesise() makes one texture, score() compares one with its exemplar, run() and train() do what a
-config file says, methods() and patterns() list what there is. What is wrong with values is a
-ConfigError (a ValueError), all else an Error (a RuntimeError). Ctrl-C stops the work.
+config file says, methods(), patterns() and tables() list what there is. What is wrong with values
+is a ConfigError (a ValueError), all else an Error (a RuntimeError). Ctrl-C stops the work.
 """
 
 import os as _os
@@ -27,7 +27,7 @@ from ._gramloom import ConfigError, Error, Progress
 __version__ = _gramloom.version
 __all__ = [
     "ConfigError", "Error", "Progress", "methods", "patterns", "read_image", "run", "score",
-    "synthesise", "train", "write_image",
+    "synthesise", "tables", "train", "write_image",
 ]
 for _name in (ConfigError, Error, Progress):
     _name.__module__ = __name__
@@ -59,38 +59,85 @@ def _toml(value):
 
 
 def _table(values):
-    return "".join(f"{_toml(key)} = {_toml(value)}\n" for key, value in values.items())
+    """The lines of a table of a config; None: not set."""
+    return "".join(f"{_toml(key)} = {_toml(value)}\n" for key, value in values.items()
+                   if value is not None)
 
 
-def synthesise(exemplar=None, kind="patchmatch", size=(512, 512), tile="both", seed=1, *,
-               maps=None, dtype=None, threads=0, progress=None, **parameters):
+def _named(value, name, pictures):
+    """A value of a table with names in place of its arrays that are pictures; these by the names."""
+    import numpy
+
+    if isinstance(value, dict):
+        return {key: _named(entry, f"{name}.{key}", pictures) for key, entry in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_named(entry, f"{name}[{i}]", pictures) for i, entry in enumerate(value)]
+    if numpy.ndim(value) < 2:
+        return value
+    array = numpy.asarray(value)
+    pictures[name] = array * numpy.uint8(255) if array.dtype == bool else array
+    return name
+
+
+def _exemplar(exemplar, maps):
+    """The table of an exemplar, which may be a picture alone."""
+    table = exemplar if isinstance(exemplar, dict) else {"image": exemplar}
+    return {**table, "maps": maps} if maps else table
+
+
+def _exemplars(exemplar, maps):
+    """The table of all exemplars, or None."""
     several = isinstance(exemplar, (list, tuple))
     exemplars = [] if exemplar is None else list(exemplar) if several else [exemplar]
     all_maps = [] if not maps else list(maps) if isinstance(maps, (list, tuple)) else [maps]
     if len(all_maps) not in (0, len(exemplars)):
         raise ConfigError(f"maps: of {len(all_maps)} exemplars, and there are {len(exemplars)}")
-    keys = {"size": size, "tile": tile, "seeds": [seed]}
-    if dtype is not None:
-        keys["pixel_type"] = _gramloom.pixel_type(dtype)
-    given = {key: value for key, value in parameters.items() if value is not None}
-    config = _table(keys) + "[method]\nname = \"synthesise\"\n" + _table({"kind": kind, **given})
-    texture, made = _gramloom.synthesise(config, exemplars, all_maps, threads, progress)
+    tables = [_exemplar(*pair) for pair in zip(exemplars, all_maps or [None] * len(exemplars))]
+    if several:
+        return {"images": tables}
+    return tables[0] if tables else None
+
+
+def synthesise(exemplar=None, kind="patchmatch", size=None, tile=None, seed=1, *, maps=None,
+               guide=None, mix=None, turn=None, fill=None, dtype=None, threads=0, progress=None,
+               **parameters):
+    if turn is not None and not isinstance(turn, dict):  # of a procedural texture
+        parameters["turn"], turn = turn, None
+    directions = {"guide": guide, "mix": mix, "turn": turn, "fill": fill}
+    if all(table is None for table in directions.values()):
+        size, tile = (512, 512) if size is None else size, "both" if tile is None else tile
+    pixel_type = None if dtype is None else _gramloom.pixel_type(dtype)
+    config = _table({"size": size, "tile": tile, "seeds": [seed], "pixel_type": pixel_type})
+    pictures = {}
+    exemplars = _named(_exemplars(exemplar, maps), "exemplar", pictures)
+    if exemplars is not None:
+        config += "[[exemplar]]\n" + _table({"name": "exemplar", **exemplars})
+    for name, table in directions.items():
+        if table is not None:
+            config += f"[{name}]\n" + _table(_named(table, name, pictures))
+    config += "[[method]]\n" + f"name = {_toml(kind)}\n" + _table({"kind": kind, **parameters})
+    texture, made = _gramloom.synthesise(config, pictures, threads, progress)
     return texture if maps is None else (texture, made)
 
 
 synthesise.__doc__ = """A texture of one or several exemplars, as a NumPy array.
 
     exemplar: an array of shape (height, width) or (height, width, channels) with values of type
-        uint8, uint16, float16 or float32; of 2 or 4 channels the last is alpha. Several pictures of
-        one material as a list. None for kinds that need no exemplar.
+        uint8, uint16, float16 or float32; of 2 or 4 channels the last is alpha. Or a table as the
+        config's [[exemplar]], {"image": array, "mask": array}: a dict in which arrays stand for
+        pictures. Several pictures of one material as a list of these. None for kinds that need no
+        exemplar, and with fill.
     kind, parameters: the method and its parameters, as in a config; None: not set. See below and
         methods().
-    size: width and height, in pixels. tile: which edges meet: none, x, y, both.
+    size: width and height, in pixels. tile: which edges meet: none, x, y, both. None: 512 × 512 and
+        both; with guide, mix, turn or fill as in a config: those of their pictures.
     seed: of the random numbers. The same arguments give the same texture, and that of the command
         line.
     maps: further arrays of the same surface by their names ("height", "normal"), made together with
         the picture; of several exemplars, a list. Then (texture, maps by name) is returned; with {}
-        too, for methods that make maps by themselves.
+        too, for maps that tables name or that a method makes by itself.
+    guide, mix, turn, fill: what goes where, as the config's tables: guide={"image": array}. See
+        below and tables(). In place of an array a file can be named. Masks may be bool.
     dtype: type of the result's values; the exemplar's, or uint8.
     threads: 0: as many as there are cores.
     progress: called with a Progress now and then; when it raises, the work stops.
@@ -109,19 +156,20 @@ def _set(values):
     return [str(value) for value in values or ()]
 
 
-def _do(work, config, output, only, resume, set, threads, progress):
+def _do(work, config, output, only, resume, set, jobs, shard, threads, progress):
     import json
     import warnings
 
     folder = "" if output is None else _os.fsencode(output)
-    records, complaints = work(_os.fsencode(config), folder, only, resume, _set(set), threads,
-                               progress)
+    records, complaints = work(_os.fsencode(config), folder, only, resume, _set(set), jobs, shard,
+                               threads, progress)
     for complaint in complaints:
         warnings.warn(complaint, RuntimeWarning, stacklevel=3)
     return json.loads(records)
 
 
-def run(config, output=None, only="", resume=False, set=None, *, threads=0, progress=None):
+def run(config, output=None, only="", resume=False, set=None, *, jobs=1, shard=None, threads=0,
+        progress=None):
     """Does the jobs of a config file, as 'gramloom run' does, and returns their records: a dict
     each, with the job's "name", the "folder" of its "files", its "status", "metrics", "settings".
     A job that fails does not stop the others: its "status" is "failed", its "error" says why, and
@@ -129,15 +177,18 @@ def run(config, output=None, only="", resume=False, set=None, *, threads=0, prog
 
     output: the folder of the results; None: out/NAME. only: a pattern of jobs' names. resume: keep
     finished jobs. set: values in place of the config's, {"size": 256, "method.NAME.key": value} or
-    ["key=value"]. progress: called with a Progress now and then; when it raises, the work stops.
+    ["key=value"]. jobs: so many at once, each in a process of the program gramloom; 0: as many as
+    threads. shard: "K/N", this call does the K-th of N parts of the jobs, others do the rest into
+    the same folder; "": what Slurm says. progress: called with a Progress now and then; when it
+    raises, the work stops.
     """
-    return _do(_gramloom.run, config, output, only, resume, set, threads, progress)
+    return _do(_gramloom.run, config, output, only, resume, set, jobs, shard, threads, progress)
 
 
-def train(config, output=None, resume=False, set=None, *, threads=0, progress=None):
+def train(config, output=None, resume=False, set=None, *, only="", threads=0, progress=None):
     """Trains the models of a config file, as 'gramloom train' does, then makes and scores textures
     by them. Arguments and result are those of run(); the models lie in OUTPUT/models."""
-    return _do(_gramloom.train, config, output, "", resume, set, threads, progress)
+    return _do(_gramloom.train, config, output, only, resume, set, 1, None, threads, progress)
 
 
 def methods():
@@ -151,6 +202,13 @@ def patterns():
     """Every texture of the kind 'procedural', in the same form."""
     import json
     return json.loads(_gramloom.patterns())
+
+
+def tables():
+    """What synthesise() takes as a dict (exemplar, guide, mix, turn, fill), with its keys in the
+    same form."""
+    import json
+    return json.loads(_gramloom.tables())
 
 
 def read_image(file):
