@@ -14,7 +14,6 @@ namespace gramloom {
 namespace {
 
 constexpr int exit_code = 130;
-constexpr timespec patience{2, 0};  // for a library that is busy
 
 std::atomic<bool> asked{false};
 std::atomic<int> scopes{0};  // of NothingToKeep
@@ -41,12 +40,13 @@ bool is_ignored(int number) {
 }
 
 // What a thread of its own does.
-void listen(sigset_t signals) {
+void listen(sigset_t signals, std::chrono::milliseconds patience) {
+  const timespec pause{patience.count() / 1000, patience.count() % 1000 * 1'000'000};
   int number = 0;
   sigwait(&signals, &number);
   asked = true;
   for (;;) {
-    number = sigtimedwait(&signals, nullptr, &patience);
+    number = sigtimedwait(&signals, nullptr, &pause);
     if (number == SIGINT || number == SIGTERM) end_by(number);
     if (number < 0 && errno == EAGAIN && scopes > 0) end_without_waiting();
   }
@@ -58,14 +58,14 @@ void listen(sigset_t signals) {
 // matrix products keep another pointer in the stack pointer's register, and what a handler pushes
 // there would fall into their numbers, or anywhere on the heap. So no thread of ours is disturbed,
 // and one that does nothing else waits for signals.
-void watch_signals() {
+void watch_signals(std::chrono::milliseconds patience) {
   sigset_t signals, before;
   sigemptyset(&signals);
   for (const int number : {SIGINT, SIGTERM}) sigaddset(&signals, number);
   if (!is_ignored(SIGHUP)) sigaddset(&signals, SIGHUP);
   pthread_sigmask(SIG_BLOCK, &signals, &before);  // also of the threads that this one starts
   try {
-    std::thread(listen, signals).detach();
+    std::thread(listen, signals, patience).detach();
   } catch (const std::system_error&) {  // no more threads: a signal ends the process, as ever
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
   }

@@ -152,9 +152,10 @@ std::vector<PreviewMaterial> read_materials(const PreviewWork& work,
   }
   const bool solid = work.params.mapping == Mapping::solid;
   for (const TextureFiles& texture : textures)
-    materials.push_back(is_name(texture.picture.string())
-                            ? procedural_material(texture.picture.string(), work.set, solid)
-                            : read_texture(texture));
+    materials.push_back(
+        is_name(texture.picture.string())
+            ? procedural_material(texture.picture.string(), work.set, solid, work.params.size)
+            : read_texture(texture));
   return materials;
 }
 

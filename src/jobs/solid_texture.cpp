@@ -1,5 +1,8 @@
 #include "jobs/solid_texture.h"
 
+#include <algorithm>
+#include <bit>
+
 #include "jobs/method_reader.h"
 #include "surface/maps.h"
 #include "surface/shading.h"
@@ -10,6 +13,12 @@ namespace {
 
 Vec3 linear_of(const float* p) {
   return {linear_from_srgb(p[0]), linear_from_srgb(p[1]), linear_from_srgb(p[2])};
+}
+
+// Of a picture that shows all details of a small preview, and of a usual one (512 × 512) most.
+int side_for(Size preview) {
+  const auto longer = static_cast<unsigned>(std::max(preview.width, preview.height));
+  return static_cast<int>(std::clamp(std::bit_ceil(2 * longer), 64u, 1024u));
 }
 
 }  // namespace
@@ -28,7 +37,7 @@ Solid solid_of(const ProceduralParams& params, Random random) {
 }
 
 PreviewMaterial procedural_material(const std::string& name, const std::vector<std::string>& set,
-                                    bool solid) {
+                                    bool solid, Size preview) {
   const ProceduralParams params = std::get<ProceduralParams>(method_of("procedural", name, set));
   const Random random(1);
   PreviewMaterial material;
@@ -36,8 +45,9 @@ PreviewMaterial procedural_material(const std::string& name, const std::vector<s
     material.solid = solid_of(params, random);
     return material;
   }
+  const int side = side_for(preview);
   Texture texture =
-      synthesise(params, {.target = {{1024, 1024}, Tile::both}, .random = random}, {});
+      synthesise(params, {.target = {{side, side}, Tile::both}, .random = random}, {});
   material.colour = linear_picture(texture.image);
   material.wraps = Tile::both;
   if (const auto height = texture.maps.find("height"); height != texture.maps.end())

@@ -12,9 +12,9 @@ namespace gramloom {
 /// ConfigError for a texture that is flat.
 Solid solid_of(const ProceduralParams& params, Random random);
 
-/// A procedural texture by its name, with "key=value" for its parameters: as a solid, or else as a
-/// picture of 1024 × 1024 pixels that tiles, with its maps. Throws ConfigError.
+/// A procedural texture by its name, with "key=value" for its parameters, for a preview of that
+/// size: as a solid, or else as a picture that tiles, with its maps. Throws ConfigError.
 PreviewMaterial procedural_material(const std::string& name, const std::vector<std::string>& set,
-                                    bool solid);
+                                    bool solid, Size preview);
 
 }  // namespace gramloom

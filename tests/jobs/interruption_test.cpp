@@ -11,6 +11,8 @@
 namespace gramloom {
 namespace {
 
+constexpr std::chrono::milliseconds short_patience{200};
+
 // A library that does not look up.
 [[noreturn]] void work_for_ever() {
   for (;;) pause();
@@ -57,7 +59,7 @@ TEST(SignalsDeathTest, ATerminalMayEndTwice) {
 TEST(SignalsDeathTest, WorkWithNothingToKeepIsNotWaitedFor) {
   EXPECT_EXIT(
       {
-        watch_signals();
+        watch_signals(short_patience);
         const NothingToKeep scope;
         send(SIGINT);
         work_for_ever();
@@ -68,10 +70,10 @@ TEST(SignalsDeathTest, WorkWithNothingToKeepIsNotWaitedFor) {
 TEST(SignalsDeathTest, WorkWithSomethingToKeepIsWaitedFor) {
   EXPECT_EXIT(
       {
-        watch_signals();
+        watch_signals(short_patience);
         { const NothingToKeep scope; }
         send(SIGINT);
-        std::this_thread::sleep_for(std::chrono::seconds(5));
+        std::this_thread::sleep_for(3 * short_patience);
         std::_Exit(3);
       },
       testing::ExitedWithCode(3), "");

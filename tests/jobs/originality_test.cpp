@@ -19,7 +19,7 @@ struct Likeness {
 Likeness likeness(const Image& exemplar, double originality) {
   NeuralParams params = with_preset(Preset::fast);
   params.layout = Layout::flow;
-  params.iterations = {20};
+  params.iterations = {10};
   params.originality = originality;
   Likeness mean;
   for (const std::uint64_t seed : {1, 2}) {

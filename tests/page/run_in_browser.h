@@ -16,6 +16,8 @@
 namespace gramloom {
 
 inline constexpr Size desk{1280, 900};
+// Laid out as a desk: for what is drawn by software, where each pixel takes its time.
+inline constexpr Size small_desk{880, 600};
 inline constexpr Size phone{390, 844};
 
 /// Tests of the pages of runs: one folder and one browser for all tests of a suite, which are

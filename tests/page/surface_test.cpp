@@ -60,7 +60,7 @@ class SurfacePage : public RunInBrowser {
     return found;
   }
   // Opens the result of an exemplar.
-  static void enlarge(const std::string& exemplar, Size window = desk, bool dark = false) {
+  static void enlarge(const std::string& exemplar, Size window = small_desk, bool dark = false) {
     browser_->open(folder_ / "out/c/index.html", window, dark);
     RunInBrowser::enlarge(exemplar + "/q/seed1");
   }

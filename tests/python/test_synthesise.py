@@ -35,33 +35,61 @@ def test_same_pixels_as_the_command_line(kind, pebbles, tmp_path, command_line):
     same(made, tmp_path / "made.png")
 
 
-@pytest.mark.parametrize("pattern", [p["name"] for p in gramloom.patterns()])
-def test_textures_without_exemplar(pattern, tmp_path, command_line):
-    command_line("make", pattern, "--size", 32, "--output", "made.png", "--quiet")
+PATTERNS = [p["name"] for p in gramloom.patterns()]
+
+
+@pytest.fixture(scope="module")
+def patterns_of_a_run(run_of):
+    methods = [f"[[method]]\nname = '{p}'\nkind = 'procedural'\ntexture = '{p}'\n" for p in PATTERNS]
+    return run_of("size = 32\ntile = 'both'\nscores = false\n" + "".join(methods)) / "procedural"
+
+
+@pytest.mark.parametrize("pattern", PATTERNS)
+def test_textures_without_exemplar(pattern, patterns_of_a_run):
     made, maps = gramloom.synthesise(kind="procedural", texture=pattern, size=32, maps={})
-    same(made, tmp_path / "made.png")
+    same(made, patterns_of_a_run / pattern / "seed1.png")
     for name, array in maps.items():
-        same(array, tmp_path / f"made_{name}.png")
+        same(array, patterns_of_a_run / pattern / f"seed1_{name}.png")
 
 
-@pytest.mark.parametrize("kind", ["quilting", "pyramid"])
-@pytest.mark.parametrize("dtype", ["uint8", "uint16", "float16", "float32"])
-@pytest.mark.parametrize("channels", [None, 1, 2, 3, 4])
-def test_types_and_shapes(kind, dtype, channels, pebbles, tmp_path, config, command_line):
+KINDS = ["quilting", "pyramid"]
+TYPES = {"uint8": "png", "uint16": "png", "float16": "exr", "float32": "exr"}
+CHANNELS = [None, 1, 2, 3, 4]
+
+
+def exemplar_of(pebbles, dtype, channels):
     values = pebbles.astype("float64") / 255
     values = values[:, :, 0] if channels is None else \
         numpy.concatenate([values, values[:, :, :1]], axis=2)[:, :, :channels]
     most = {"uint8": 255, "uint16": 65535}.get(dtype)
-    exemplar = numpy.rint(values * most).astype(dtype) if most else (3 * values - 1).astype(dtype)
+    return numpy.rint(values * most).astype(dtype) if most else (3 * values - 1).astype(dtype)
+
+
+@pytest.fixture(scope="module")
+def types_of_a_run(pebbles, run_of):
+    exemplars = [(f"{dtype}_{channels}", ending, exemplar_of(pebbles, dtype, channels))
+                 for dtype, ending in TYPES.items() for channels in CHANNELS]
+    text = "seeds = 3\nsize = [40, 24]\ntile = 'x'\nscores = false\n"
+    text += "".join(f"[[exemplar]]\nname = '{name}'\nimage = '{name}.{ending}'\n"
+                    for name, ending, _ in exemplars)
+    text += "".join(f"[[method]]\nname = '{kind}'\nkind = '{kind}'\n" for kind in KINDS)
+
+    def write(folder):
+        for name, ending, array in exemplars:
+            gramloom.write_image(folder / f"{name}.{ending}", array)
+    return run_of(text, write)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("dtype", TYPES)
+@pytest.mark.parametrize("channels", CHANNELS)
+def test_types_and_shapes(kind, dtype, channels, pebbles, types_of_a_run):
+    exemplar = exemplar_of(pebbles, dtype, channels)
     made = gramloom.synthesise(exemplar, kind, size=(40, 24), tile="x", seed=3)
     assert made.dtype == exemplar.dtype
     assert made.shape == ((24, 40) if channels is None else (24, 40, channels))
-    gramloom.write_image(tmp_path / ("e.png" if most else "e.exr"), exemplar)
-    config(f"seeds = 3\nsize = [40, 24]\ntile = 'x'\nscores = false\n[[exemplar]]\nname = 'e'\n"
-           f"image = '{'e.png' if most else 'e.exr'}'\n[[method]]\nname = 'm'\nkind = '{kind}'\n")
-    command_line("run", "c.toml", "--quiet")
     same(made[:, :, 0] if channels == 1 else made,
-         tmp_path / "out/c/e/m" / ("seed3.png" if most else "seed3.exr"))
+         types_of_a_run / f"{dtype}_{channels}" / kind / f"seed3.{TYPES[dtype]}")
 
 
 def test_several_exemplars_and_maps(pebbles, tmp_path, config, command_line):
