@@ -1,5 +1,6 @@
 // A texture that several processes make together.
 #include <signal.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <list>
@@ -26,12 +27,13 @@ class OneJob : public Workspace {
                            iterations, more));
   }
 
-  // The others of `count` processes meet the first by a file.
+  // The others of `count` processes meet the first by a file, or at an address.
   std::vector<std::string> words(const std::string& config, int process, int count,
-                                 const std::string& output) const {
+                                 const std::string& output,
+                                 const std::string& meeting = "meeting") const {
     return {
-        "run",    config,    "--output",  output, "--one-job", fmt::format("{}/{}", process, count),
-        "--meet", "meeting", "--threads", "1"};
+        "run",    config,  "--output",  output, "--one-job", fmt::format("{}/{}", process, count),
+        "--meet", meeting, "--threads", "1"};
   }
 
   const std::string picture_ = "e/g/seed1.png";
@@ -54,6 +56,16 @@ TEST_F(OneJob, ItsTextureIsThatOfOneProcess) {
             read_image(folder_ / "two" / picture_).metadata);
   EXPECT_EQ(record("e/g/seed1", "two")->status, Status::done);
   EXPECT_TRUE(fs::exists(folder_ / "two/index.html"));
+}
+
+TEST_F(OneJob, TheyMeetAtAnAddress) {
+  const std::string meeting = fmt::format("127.0.0.1:{}", 20000 + getpid() % 12000);
+  Process second(folder_, words("giant.toml", 2, 2, "two", meeting));
+  const Outcome first = run(words("giant.toml", 1, 2, "two", meeting));
+  const Outcome other = second.wait();
+  EXPECT_EQ(first.exit_code, 0) << first.errors << other.errors;
+  EXPECT_EQ(other.exit_code, 0) << other.errors;
+  EXPECT_EQ(record("e/g/seed1", "two")->status, Status::done);
 }
 
 TEST_F(OneJob, TheOthersEndWhenOneDies) {

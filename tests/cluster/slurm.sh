@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# A Slurm of one controller and two nodes on this machine does an array of shards; one node and its
-# task are killed in the middle, Slurm starts the task again on the other node, and in the end all
-# results are there, the same bytes as one process makes. Needs root, slurm-wlm and munge.
+# A Slurm of one controller and two nodes on this machine makes one texture by a task on each, and
+# does an array of shards: one node and its task are killed in the middle, Slurm starts the task again
+# on the other node, and in the end all results are there, the same bytes as one process makes. Needs
+# root, slurm-wlm, munge and openimageio-tools.
 #   tests/cluster/slurm.sh [build/gramloom]
 set -euo pipefail
 root=$(dirname "$(readlink -f "$0")")/../..
 export GRAMLOOM
 GRAMLOOM=$(readlink -f "${1:-build/gramloom}")
-for command in munged slurmctld slurmd sbatch; do
+for command in munged slurmctld slurmd sbatch srun idiff; do
   command -v $command >/dev/null || { echo "slurm.sh: $command is not installed (Debian: slurm-wlm munge)" >&2; exit 77; }
 done
 
@@ -78,6 +79,28 @@ start n1 slurmd -D -N n1
 node=${started[-1]}
 start n2 slurmd -D -N n2
 wait_until "both nodes are idle" sh -c '[ "$(sinfo -h -t idle -N -o %N | sort -u | wc -l)" = 2 ]'
+
+# One texture by a task on each node.
+cat >"$folder/giant.toml" <<CONF
+size = [96, 256]
+tile = "both"
+[[exemplar]]
+name = "pebbles"
+image = "$root/data/pebbles.png"
+[[method]]
+name = "gram"
+kind = "neural"
+preset = "gatys"
+network = "multiscale_1"
+optimizer = ["adam"]
+positions = 4096
+iterations = [3]
+CONF
+"$GRAMLOOM" run "$folder/giant.toml" --output "$folder/giant" --quiet --threads 1
+(cd "$folder" && timeout 120 srun -N 2 -n 2 "$GRAMLOOM" run giant.toml --output by-srun --one-job --quiet --threads 1) ||
+  fail "srun failed"
+idiff -q -fail 0.005 "$folder"/{giant,by-srun}/pebbles/gram/seed1.png || fail "the texture of two tasks is another one"
+echo "a texture by two tasks of srun is that of one process"
 
 cat >"$folder/array.toml" <<CONF
 size = [160, 160]
