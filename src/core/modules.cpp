@@ -38,8 +38,8 @@ std::string_view package_of(std::string_view module) {
 const void* detail::open_module(std::string_view name) {
   const auto file = libraries_folder() / fmt::format("libgramloom_{}.so", name);
   if (!std::filesystem::exists(file))
-    throw Error("{} is missing: install the package {}, or build the target gramloom_{}_module",
-                file.string(), package_of(name), name);
+    throw Error("{} is missing: install the package {}, or in a checkout run ./bootstrap build",
+                file.string(), package_of(name));
   open_libraries(libraries_folder() / fmt::format("libgramloom_{}.txt", name));
   // Never closed: LibTorch cannot be.
   void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -18,7 +18,8 @@ TEST(Modules, OneThatIsNotInstalledIsNamedWithItsPackage) {
   } catch (const Error& error) {
     EXPECT_THAT(
         error.what(),
-        testing::EndsWith("/libgramloom_absent.so is missing: install the package gramloom"));
+        testing::EndsWith("/libgramloom_absent.so is missing: install the package gramloom, "
+                          "or in a checkout run ./bootstrap build"));
   }
 }
 
