@@ -85,7 +85,7 @@ install(FILES ${PROJECT_BINARY_DIR}/package/gramloomConfig.cmake ${PROJECT_BINAR
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libgramloom-dev COMPONENT development)
 
 # All that is installed, as a target.
-add_custom_target(installed DEPENDS gramloom)
+add_custom_target(installed DEPENDS gramloom gramloom_train_module)
 if(TARGET gramloom_python)
   add_dependencies(installed gramloom_python)
 endif()
