@@ -36,7 +36,8 @@ class InferCommand : public Workspace {
                    keys);
   }
   Outcome train(std::vector<std::string> more = {}) const {
-    more.insert(more.begin(), {"train", "i.toml", "--output", "o"});
+    // In one thread, which such small networks are trained fastest by (tests/train/one_thread.cpp).
+    more.insert(more.begin(), {"train", "i.toml", "--output", "o", "--threads", "1"});
     return run(more);
   }
   void expect_refused(std::vector<std::string> words, const std::string& says) const {

@@ -13,6 +13,11 @@ using testing::Not;
 
 class TrainCommand : public Workspace {
  protected:
+  // In one thread, which such small networks are trained fastest by (tests/train/one_thread.cpp).
+  Outcome train(std::vector<std::string> more = {}) const {
+    more.insert(more.begin(), {"train", "t.toml", "--threads", "1"});
+    return run(more);
+  }
   // A training of two levels that takes a second.
   void write_config(const std::string& more = "", const std::string& exemplar = "") {
     Image spots(64, 64, 3), rings(64, 64, 3);
@@ -39,7 +44,7 @@ class TrainCommand : public Workspace {
 
 TEST_F(TrainCommand, LeavesAModelAndItsTextures) {
   write_config();
-  const Outcome outcome = run({"train", "t.toml"});
+  const Outcome outcome = train();
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
   const fs::path out = folder_ / "out/t";
   for (const char* file :
@@ -53,7 +58,7 @@ TEST_F(TrainCommand, LeavesAModelAndItsTextures) {
   EXPECT_EQ(description.materials.at(0).licence, "CC0");
   EXPECT_EQ(description.levels.size(), 2u);
   // It is kept, and its texture made again, by `generate` too.
-  const Outcome again = run({"train", "t.toml", "--resume"});
+  const Outcome again = train({"--resume"});
   EXPECT_THAT(again.errors, HasSubstr("trained before"));
   const Outcome generated = run({"generate", "out/t/models/spots_small.safetensors", "--size", "64",
                                  "--tile", "both", "--output", "g.png", "--quiet"});
@@ -63,8 +68,7 @@ TEST_F(TrainCommand, LeavesAModelAndItsTextures) {
 
 TEST_F(TrainCommand, ABlendIsEachOfItsMaterials) {
   write_config("blend = true\n", "[[exemplar]]\nname = 'rings'\nimage = 'rings.png'\n");
-  const Outcome outcome =
-      run({"train", "t.toml", "--quiet", "--set", "model.small.steps=[160, 100]"});
+  const Outcome outcome = train({"--quiet", "--set", "model.small.steps=[160, 100]"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
   const auto image = [&](const char* file) { return read_image(folder_ / file).image; };
   const auto mean = [](const Image& picture, std::size_t channel) {
@@ -88,7 +92,7 @@ TEST_F(TrainCommand, ABlendIsEachOfItsMaterials) {
 TEST_F(TrainCommand, OneThatFailsDoesNotStopTheOthers) {
   write_config("", "[[exemplar]]\nname = 'tiny'\nimage = 'tiny.png'\n");
   write_image(folder_ / "tiny.png", Image(5, 5, 3, 0.5f), {});
-  const Outcome outcome = run({"train", "t.toml", "--quiet"});
+  const Outcome outcome = train({"--quiet"});
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.errors, HasSubstr("tiny_small: failed: the exemplar is too small"));
   EXPECT_TRUE(fs::exists(folder_ / "out/t/spots/small/seed1.png"));
@@ -105,7 +109,7 @@ TEST_F(TrainCommand, APartOfIt) {
   EXPECT_EQ(model.exit_code, 0) << model.errors;
   EXPECT_THAT(model.output, HasSubstr("rings_small"));
   EXPECT_EQ(run({"check", "t.toml", "--only", "moss"}).exit_code, 2);
-  const Outcome outcome = run({"train", "t.toml", "--quiet", "--only", "rings/small"});
+  const Outcome outcome = train({"--quiet", "--only", "rings/small"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_TRUE(fs::exists(folder_ / "out/t/models/rings_small.safetensors"));
   EXPECT_TRUE(fs::exists(folder_ / "out/t/rings/small/seed1.png"));
@@ -118,7 +122,7 @@ TEST_F(TrainCommand, LearnsMapsWithThePicture) {
   Image map(64, 64, 4, 0.5f);
   for (std::size_t i = 0; i < map.pixels.size(); i += 4) map.pixels[i] = i % 64 < 32 ? 0.2f : 0.8f;
   write_image(folder_ / "m.png", map, {});
-  const Outcome outcome = run({"train", "t.toml", "--quiet"});
+  const Outcome outcome = train({"--quiet"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
   const Image made = read_image(folder_ / "out/t/spots/small/seed1_mask.png").image;
   EXPECT_EQ(made.channels, 4);  // with its alpha
@@ -134,7 +138,7 @@ TEST_F(TrainCommand, ModelsOfOneNameAreRefused) {
       "blend = true\nexemplars = ['spots', 'rings']\n"
       "[[model]]\nname = 'b'\nkind = 'generator'\nexemplars = ['spots']\n",
       "[[exemplar]]\nname = 'rings'\nimage = 'rings.png'\n");
-  const Outcome outcome = run({"train", "t.toml", "--set", "model.small.name='spots_b'"});
+  const Outcome outcome = train({"--set", "model.small.name='spots_b'"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.errors, HasSubstr("two models would be called 'spots_b'"));
 }
