@@ -6,8 +6,6 @@
 
 namespace gramloom {
 
-namespace {}  // namespace
-
 int PatchAxis::before(int i) const {
   if (i > 0) return starts[to_size(i - 1)] + patch - starts[to_size(i)];
   return wraps && count() > 1 ? starts.back() + patch - length : 0;

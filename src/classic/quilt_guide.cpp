@@ -7,8 +7,6 @@
 
 namespace gramloom {
 
-namespace {}  // namespace
-
 QuiltGuide::QuiltGuide(const Image& exemplar, Image canvas, Size patch)
     : canvas_(std::move(canvas)),
       patch_{std::min(std::max(1, patch.width / factor), exemplar.width),

@@ -9,7 +9,7 @@ root=$(dirname "$(readlink -f "$0")")/../..
 export GRAMLOOM
 GRAMLOOM=$(readlink -f "${1:-build/gramloom}")
 for command in munged slurmctld slurmd sbatch srun idiff; do
-  command -v $command >/dev/null || { echo "slurm.sh: $command is not installed (Debian: slurm-wlm munge)" >&2; exit 77; }
+  command -v $command >/dev/null || { echo "slurm.sh: $command is not installed (Debian: slurm-wlm munge openimageio-tools)" >&2; exit 77; }
 done
 
 folder=$(mktemp -d)

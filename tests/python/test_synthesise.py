@@ -165,6 +165,8 @@ def test_scores_are_those_of_the_command_line(pebbles, tmp_path, command_line):
     ({"exemplar": None}, "synthesise: method 'quilting' needs an [[exemplar]]"),
     ({"exemplar": "none.png"}, "synthesise: there is no file none.png"),
     ({"size": 65536}, "GB of memory"),
+    ({"fill": "hole.png"}, "fill is a table"),
+    ({"guide": numpy.zeros((4, 4), numpy.uint8)}, "guide is a table"),
 ])
 def test_what_is_wrong_is_said(arguments, words, pebbles):
     with pytest.raises(gramloom.ConfigError) as caught:

@@ -82,6 +82,8 @@ def _named(value, name, pictures):
 def _exemplar(exemplar, maps):
     """The table of an exemplar, which may be a picture alone."""
     table = exemplar if isinstance(exemplar, dict) else {"image": exemplar}
+    if maps and "maps" in table:
+        raise ConfigError("maps: the exemplar's table has some too")
     return {**table, "maps": maps} if maps else table
 
 
@@ -106,6 +108,9 @@ def synthesise(exemplar=None, kind="patchmatch", size=None, tile=None, seed=1, *
     directions = {"guide": guide, "mix": mix, "turn": turn, "fill": fill}
     if all(table is None for table in directions.values()):
         size, tile = (512, 512) if size is None else size, "both" if tile is None else tile
+    for name, table in directions.items():
+        if table is not None and not isinstance(table, dict):
+            raise ConfigError(f"{name} is a table, as {name}={{\"image\": array}}")
     pixel_type = None if dtype is None else _gramloom.pixel_type(dtype)
     config = _table({"size": size, "tile": tile, "seeds": [seed], "pixel_type": pixel_type})
     pictures = {}
