@@ -30,8 +30,7 @@ double counted_share(double made) { return std::min(1.0, 1.3 * made + 0.01); }
 
 // What the terms look at on the finest level.
 LossSize loss_size(const NeuralParams& params, Size exemplar, Size canvas, int channels) {
-  const auto pixels = [](Size size) { return static_cast<double>(size.width) * size.height; };
-  LossSize size{pixels(exemplar), pixels(canvas), channels, params.directions, {}, {}};
+  LossSize size{area(exemplar), area(canvas), channels, params.directions, {}, {}};
   if (!needs_network(params)) return size;
   auto network = read_network(find_network(params.network));
   const auto layers = matched_layers(params, network);

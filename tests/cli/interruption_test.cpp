@@ -89,9 +89,12 @@ TEST_F(Interruption, TheSecondCtrlCEndsTheProcessAtOnce) {
 TEST_F(Interruption, NohupIsObeyed) {
   const Outcome outcome =
       shell(folder_,
-            "trap '' HUP; $GRAMLOOM run c.toml --set size=300 & "
-            "while ! test -e out/c/run.json; do sleep 0.01; done; kill -HUP $!; wait $!");
+            "trap '' HUP; $GRAMLOOM run c.toml --set size=300 --set 'seeds=[1,2,3,4]' & "
+            "while ! test -e out/c/run.json; do sleep 0.01; done; "
+            "echo before: $(grep -l '\"status\": \"done\"' out/c/*/*/seed*.json | wc -l) of 8; "
+            "kill -HUP $!; wait $!");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, testing::ContainsRegex("before: [0-7] of 8"));
 }
 
 TEST_F(Interruption, AKilledJobIsNotCalledDone) {

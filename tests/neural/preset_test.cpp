@@ -80,9 +80,8 @@ TEST_P(EveryPreset, LowersItsLoss) {
 std::vector<PresetCase> every_preset() {
   std::vector<PresetCase> cases;
   for (const Preset preset : {Preset::fast, Preset::balanced, Preset::quality, Preset::gatys})
-    for (const auto& [channels, tile] :
-         {std::pair{1, Tile::none}, {3, Tile::none}, {3, Tile::both}, {5, Tile::both}})
-      cases.push_back({preset, channels, tile});
+    for (const int channels : {1, 3, 5})
+      for (const Tile tile : {Tile::none, Tile::both}) cases.push_back({preset, channels, tile});
   return cases;
 }
 

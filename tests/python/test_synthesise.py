@@ -158,7 +158,7 @@ def test_scores_are_those_of_the_command_line(pebbles, tmp_path, command_line):
     ({"maps": {"height": numpy.zeros((3, 3), "uint8")}},
      "the map exemplar.maps.height has 3×3 pixels and its picture exemplar.image 48×40"),
     ({"exemplar": numpy.zeros((4, 4, 3))}, "exemplar.image: values of type float64"),
-    ({"exemplar": numpy.zeros((4,), "uint8")}, "synthesise: 'image' is a list"),
+    ({"exemplar": numpy.zeros((4,), "uint8")}, "an array of 1 dimensions"),
     ({"exemplar": numpy.zeros((4, 4, 3, 1), "uint8")}, "an array of 4 dimensions"),
     ({"exemplar": numpy.zeros((0, 4), "uint8")}, "empty"),
     ({"exemplar": numpy.full((4, 4), numpy.nan, "float32")}, "exemplar.image: "),

@@ -72,7 +72,8 @@ def _named(value, name, pictures):
         return {key: _named(entry, f"{name}.{key}", pictures) for key, entry in value.items()}
     if isinstance(value, (list, tuple)):
         return [_named(entry, f"{name}[{i}]", pictures) for i, entry in enumerate(value)]
-    if numpy.ndim(value) < 2:
+    stands_as_picture = name.endswith(".image") and isinstance(value, numpy.ndarray)
+    if numpy.ndim(value) < 2 and not stands_as_picture:
         return value
     array = numpy.asarray(value)
     pictures[name] = array * numpy.uint8(255) if array.dtype == bool else array
