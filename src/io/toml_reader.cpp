@@ -46,7 +46,7 @@ fs::path folder_of(const toml::source_region& region) {
   return region.path && !is_override(region) ? fs::path(*region.path).parent_path() : fs::path();
 }
 
-constexpr int deepest = 50;
+constexpr int deepest_table = 50;
 
 // The end of the text (or comment) that begins at `at`, as TOML has them.
 std::size_t end_of_text(std::string_view text, std::size_t at) {
@@ -84,17 +84,10 @@ void check_toml_nesting(std::string_view text, const std::string& name) {
     if (c == '.') ++dots;
     if (c == '[' || c == '{') ++brackets;
     if (c == ']' || c == '}') --brackets;
-    if (brackets > deepest || dots > deepest)
-      throw ConfigError("{}:{}: nested deeper than {}", name, line, deepest);
+    if (brackets > deepest_table || dots > deepest_table)
+      throw ConfigError("{}:{}: nested deeper than {}", name, line, deepest_table);
     ++at;
   }
-}
-
-// The parser quotes what it saw, a line's end too.
-std::string on_one_line(std::string_view text) {
-  std::string line;
-  for (const char c : text) line += c == '\n' ? "\\n" : c == '\r' ? "\\r" : std::string(1, c);
-  return line;
 }
 
 }  // namespace
@@ -104,7 +97,7 @@ toml::table parse_toml(std::string_view text, const std::string& name) {
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
-    fail(error.source(), "{}", on_one_line(error.description()));
+    fail(error.source(), "{}", error.description());
   }
 }
 

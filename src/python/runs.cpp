@@ -125,7 +125,7 @@ RunDone train(const RunWork& work, Watch& watch) {
   if (const auto textures = textures_of_trained(config, trained, options.only))
     do_jobs(*textures, options, bar, done);
   else if (trained.failed > 0)
-    throw Error("{}", fmt::join(done.complaints, "\n"));
+    throw Error("{}", fmt::join(done.complaints, "; "));
   return done;
 }
 
