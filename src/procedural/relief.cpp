@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/neighbour.h"
+#include "core/threads.h"
 #include "procedural/render.h"
 
 namespace gramloom {
