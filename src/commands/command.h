@@ -43,6 +43,10 @@ Command add_infer(CLI::App& program);
 Command add_manual(CLI::App& program);
 Command add_completion(CLI::App& program);
 
+/// The program: finds the command in its arguments and does its work. Throws ConfigError for bad
+/// usage, and what the work throws.
+ExitCode run_program(int argc, char** argv);
+
 /// Writes to standard output. A reader who has gone away is no mistake of ours; else throws Error.
 ExitCode print(const std::string& text);
 

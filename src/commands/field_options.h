@@ -103,6 +103,35 @@ inline CLI::Option* add_path(CLI::App& command, const std::string& option,
       ->type_name("");
 }
 
+template <class T>
+CLI::Option* add_field_option(CLI::App& command, const FieldText& field, T& value) {
+  std::string option = fmt::format("--{}", field.name);
+  std::replace(option.begin(), option.end(), '_', '-');
+  std::string meaning(field.meaning);
+  if (!field.unit.empty()) meaning += fmt::format(" ({})", field.unit);
+  const std::string standard = value_to_text(value);
+  if constexpr (std::is_same_v<T, bool>) {
+    const std::string off = value ? fmt::format(",!--no-{}", option.substr(2)) : "";
+    return command.add_flag(option + off, value, meaning);
+  } else if constexpr (NamedEnum<T>) {
+    return add_word(command, option, value, meaning + "; " + std::string(to_word(value)));
+  } else if constexpr (is_optional<T>) {
+    return add_word(command, option, value, meaning);
+  } else if constexpr (std::is_same_v<T, Size>) {
+    return add_size(command, option, value, field.range, meaning);
+  } else if constexpr (std::is_base_of_v<std::filesystem::path, T>) {
+    return add_path(command, option, value, meaning);
+  } else if constexpr (std::is_same_v<T, std::vector<std::filesystem::path>>) {
+    return add_paths(command, option, value, meaning);
+  } else {
+    if (standard != "[]") meaning += "; " + standard;
+    CLI::Option* added =
+        command.add_option(option, value, meaning)->check(range_of<T>(field.range))->type_name("");
+    if constexpr (is_list<T>) added->delimiter(',');
+    return added;
+  }
+}
+
 }  // namespace detail
 
 /// `params` must stay where it is until the command line is read. Returns the options.
@@ -110,36 +139,8 @@ template <class Params>
 std::vector<CLI::Option*> add_field_options(CLI::App& command, Params& params,
                                             const std::string& group) {
   std::vector<CLI::Option*> options;
-  for_each_field<Params>([&](const auto& field) {
-    using T = typename std::decay_t<decltype(field)>::value_type;
-    std::string option = fmt::format("--{}", field.name);
-    std::replace(option.begin(), option.end(), '_', '-');
-    T& value = params.*field.member;
-    std::string meaning(field.meaning);
-    if (!field.unit.empty()) meaning += fmt::format(" ({})", field.unit);
-    const std::string standard = value_to_text(value);
-    CLI::Option* added = nullptr;
-    if constexpr (std::is_same_v<T, bool>) {
-      const std::string off = value ? fmt::format(",!--no-{}", option.substr(2)) : "";
-      added = command.add_flag(option + off, value, meaning);
-    } else if constexpr (NamedEnum<T>) {
-      added = add_word(command, option, value, meaning + "; " + std::string(to_word(value)));
-    } else if constexpr (is_optional<T>) {
-      added = add_word(command, option, value, meaning);
-    } else if constexpr (std::is_same_v<T, Size>) {
-      added = detail::add_size(command, option, value, field.range, meaning);
-    } else if constexpr (std::is_base_of_v<std::filesystem::path, T>) {
-      added = detail::add_path(command, option, value, meaning);
-    } else if constexpr (std::is_same_v<T, std::vector<std::filesystem::path>>) {
-      added = detail::add_paths(command, option, value, meaning);
-    } else {
-      if (standard != "[]") meaning += "; " + standard;
-      added = command.add_option(option, value, meaning)
-                  ->check(detail::range_of<T>(field.range))
-                  ->type_name("");
-      if constexpr (is_list<T>) added->delimiter(',');
-    }
-    options.push_back(added->group(group));
+  for_each_value(params, [&](const FieldText& field, auto& value) {
+    options.push_back(detail::add_field_option(command, field, value)->group(group));
   });
   return options;
 }

@@ -49,4 +49,9 @@ std::string closest_word(std::string_view word, const std::vector<std::string>& 
   return best;
 }
 
+void detail::check_number(const FieldText& field, double value, bool integer) {
+  if (!field.range.contains(value))
+    throw ConfigError("{} = {}: allowed are {}", field.name, value, describe(field.range, integer));
+}
+
 }  // namespace gramloom

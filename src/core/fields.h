@@ -84,26 +84,36 @@ struct Range {
   constexpr bool contains(double value) const { return value >= min && value <= max; }
 };
 
-template <class Params, class T>
-struct Field {
-  using value_type = T;
+/// What is said of a field, whatever its type is.
+struct FieldText {
   std::string_view name;
-  T Params::*member;
   std::string_view meaning;
-  std::string_view unit = "";  // "" for a pure number or a word
-  Range range = {};
+  std::string_view unit;  // "" for a pure number or a word
+  Range range;
 };
+
 template <class Params, class T>
-Field(const char*, T Params::*, const char*, const char*, Range) -> Field<Params, T>;
-template <class Params, class T>
-Field(const char*, T Params::*, const char*, const char*) -> Field<Params, T>;
-template <class Params, class T>
-Field(const char*, T Params::*, const char*) -> Field<Params, T>;
+struct Field : FieldText {
+  using value_type = T;
+  T Params::*member;
+
+  constexpr Field(std::string_view name_, T Params::*member_, std::string_view meaning_,
+                  std::string_view unit_ = "", Range range_ = {})
+      : FieldText{name_, meaning_, unit_, range_}, member(member_) {}
+};
 
 /// Calls f(field) for every field of Params in order.
 template <class Params, class F>
 void for_each_field(F&& f) {
   std::apply([&](const auto&... field) { (f(field), ...); }, Params::fields());
+}
+
+/// Calls f(field, value) for every field's value of `params` in order. What f does should depend on
+/// the value's type alone: it is compiled once for each of these, and not for each of Params too.
+template <class Params, class F>
+void for_each_value(Params& params, F&& f) {
+  for_each_field<std::remove_const_t<Params>>(
+      [&](const auto& field) { f(static_cast<const FieldText&>(field), params.*field.member); });
 }
 
 /// "4 to 512", "at least 0", "any number": for messages and documentation.
@@ -112,24 +122,28 @@ std::string describe(const Range& range, bool integer);
 /// The closest of `words` to `word`, or "" when none is close enough to be a typing mistake.
 std::string closest_word(std::string_view word, const std::vector<std::string>& words);
 
+namespace detail {
+
+void check_number(const FieldText& field, double value, bool integer);
+
+template <class T>
+void check_value(const FieldText& field, const T& value) {
+  if constexpr (is_number<T>) {
+    check_number(field, static_cast<double>(value), std::is_integral_v<T>);
+  } else if constexpr (is_list<T>) {
+    if constexpr (is_number<element_t<T>>)
+      for (const auto element : value) check_value(field, element);
+  }
+}
+
+}  // namespace detail
+
 /// Throws ConfigError "name = value: allowed are …" for the first value outside its range. For
 /// values that come from code; the config reader does the same with line and column.
 template <class Params>
 void check_fields(const Params& params) {
-  for_each_field<Params>([&](const auto& field) {
-    using T = typename std::decay_t<decltype(field)>::value_type;
-    const auto check = [&](double value) {
-      if (!field.range.contains(value))
-        throw ConfigError("{} = {}: allowed are {}", field.name, value,
-                          describe(field.range, std::is_integral_v<element_t<T>>));
-    };
-    if constexpr (is_number<T>) {
-      check(static_cast<double>(params.*field.member));
-    } else if constexpr (is_list<T>) {
-      if constexpr (is_number<element_t<T>>)
-        for (const auto value : params.*field.member) check(static_cast<double>(value));
-    }
-  });
+  for_each_value(
+      params, [](const FieldText& field, const auto& value) { detail::check_value(field, value); });
 }
 
 }  // namespace gramloom

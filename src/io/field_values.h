@@ -99,8 +99,8 @@ Json value_to_json(const T& value, const std::filesystem::path& folder) {
     auto files = Json::object();
     for (const auto& [name, file] : value) {
       auto entry = Json::object();
-      for_each_field<std::decay_t<decltype(file)>>([&](const auto& field) {
-        if (auto json = value_to_json(file.*field.member, folder); !json.is_null())
+      for_each_value(file, [&](const FieldText& field, const auto& member) {
+        if (auto json = value_to_json(member, folder); !json.is_null())
           entry[std::string(field.name)] = std::move(json);
       });
       files[name] = entry.size() == 1 ? entry.front() : entry;  // the file alone, as it was given

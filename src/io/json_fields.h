@@ -38,8 +38,8 @@ Json to_json_value(const T& value) {
     return value;
   } else if constexpr (HasFields<T>) {
     auto object = Json::object();
-    for_each_field<T>([&](const auto& field) {
-      object[std::string(field.name)] = to_json_value(value.*field.member);
+    for_each_value(value, [&](const FieldText& field, const auto& member) {
+      object[std::string(field.name)] = to_json_value(member);
     });
     return object;
   } else if constexpr (is_optional<T>) {
@@ -91,12 +91,10 @@ T from_json_value(const Json& json, const JsonPlace& place, const Range& range =
   } else if constexpr (HasFields<T>) {
     if (!json.is_object()) wrong_json(json, place, "an object");
     T value;
-    for_each_field<T>([&](const auto& field) {
-      using Value = typename std::decay_t<decltype(field)>::value_type;
+    for_each_value(value, [&]<class Value>(const FieldText& field, Value& member) {
       const std::string name(field.name);
       if (!json.contains(name) && (is_optional<Value> || place.may_lack_keys)) return;
-      value.*field.member =
-          from_json_value<Value>(required_key(json, name, place), place.at(name), field.range);
+      member = from_json_value<Value>(required_key(json, name, place), place.at(name), field.range);
     });
     return value;
   } else if constexpr (is_optional<T>) {

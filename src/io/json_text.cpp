@@ -6,7 +6,7 @@ namespace gramloom {
 
 namespace {
 
-constexpr int deepest = 100;
+constexpr int deepest_list = 100;
 
 }  // namespace
 
@@ -21,7 +21,8 @@ void check_nesting(std::string_view json) {
     } else if (c == '"') {
       in_text = true;
     } else if (c == '[' || c == '{') {
-      if (++depth > deepest) throw Error("lists in lists, nested deeper than {}", deepest);
+      if (++depth > deepest_list)
+        throw Error("lists in lists, nested deeper than {}", deepest_list);
     } else if (c == ']' || c == '}') {
       --depth;
     }

@@ -104,6 +104,13 @@ T read_value(const toml::node& node, const Slot& slot, const std::string& allowe
   }
 }
 
+template <class T>
+void read_field(const toml::table& table, const FieldText& field, T& value) {
+  if (const toml::node* node = table.get(field.name))
+    value = read_value<T>(*node, {field.name, field.range, key_region(table, field.name)},
+                          allowed_values<T>(field.range));
+}
+
 }  // namespace detail
 
 /// The names of Params' fields, after `others`.
@@ -116,13 +123,8 @@ std::vector<std::string> key_names(std::vector<std::string> others = {}) {
 /// `params` with what `table` says for those of its fields whose names are `wanted`.
 template <class Params, class Wanted>
 void read_fields_if(Params& params, const toml::table& table, Wanted&& wanted) {
-  for_each_field<Params>([&](const auto& field) {
-    using T = typename std::decay_t<decltype(field)>::value_type;
-    if (!wanted(field.name)) return;
-    if (const toml::node* node = table.get(field.name))
-      params.*field.member =
-          detail::read_value<T>(*node, {field.name, field.range, key_region(table, field.name)},
-                                allowed_values<T>(field.range));
+  for_each_value(params, [&](const FieldText& field, auto& value) {
+    if (wanted(field.name)) detail::read_field(table, field, value);
   });
 }
 

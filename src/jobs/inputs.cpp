@@ -49,9 +49,7 @@ Named<fs::path> files_of(const Direction& direction) {
     const auto add = [&](std::string_view key, const fs::path& file) {
       if (!file.empty()) files.emplace_back(fmt::format("{}.{}", Entry::section, key), file);
     };
-    for_each_field<Entry>([&](const auto& field) {
-      using T = typename std::decay_t<decltype(field)>::value_type;
-      const auto& value = *entry.*field.member;
+    for_each_value(*entry, [&]<class T>(const FieldText& field, const T& value) {
       if constexpr (std::is_same_v<T, fs::path>) add(field.name, value);
       if constexpr (std::is_same_v<T, FileOrName>)
         if (!value.is_name()) add(field.name, value);
@@ -85,7 +83,7 @@ Named<std::string> method_hashes(const Method& method, FileHashes& hashes) {
   };
   std::visit(
       [&]<class Params>(const Params& params) {
-        for_each_parameter(params, [&]<class T>(const auto& field, const T& value) {
+        for_each_parameter(params, [&]<class T>(const FieldText& field, const T& value) {
           if constexpr (std::is_same_v<T, fs::path>) add(field.name, value);
         });
         if constexpr (HasNetwork<Params> || HasModel<Params>) try {

@@ -12,10 +12,9 @@ namespace {
 // The top of the config, but for its seeds.
 std::string top_lines(const Config& config) {
   std::string lines;
-  for_each_field<Config>([&](const auto& field) {
+  for_each_value(config, [&](const FieldText& field, const auto& value) {
     const bool follows = field.name == "seeds" || (field.name == "size" && config.direction.fill);
-    if (const std::string text = value_in_config(config.*field.member); !follows && !text.empty())
-      lines += fmt::format("{} = {}\n", field.name, text);
+    if (!follows) add_line(field, value, lines);
   });
   return lines;
 }
@@ -38,8 +37,8 @@ std::string section_of(const std::string& head, const std::string& lines) {
 
 std::string picture_table(const ExemplarPicture& picture) {
   std::string fields;
-  for_each_field<ExemplarPicture>([&](const auto& field) {
-    if (const std::string text = value_in_config(picture.*field.member); !text.empty())
+  for_each_value(picture, [&](const FieldText& field, const auto& value) {
+    if (const std::string text = value_in_config(value); !text.empty())
       fields += fmt::format("{}{} = {}", fields.empty() ? "" : ", ", field.name, text);
   });
   return "{ " + fields + " }";
@@ -74,9 +73,8 @@ std::string method_section(const MethodEntry& entry) {
               fmt::format("{} = {}\n", Params::variant_key,
                           std::visit([]<class T>(const T&) { return quoted(std::string(T::name)); },
                                      params.texture));
-        for_each_parameter(params, [&](const auto& field, const auto& value) {
-          if (const std::string text = value_in_config(value); !text.empty())
-            lines += fmt::format("{} = {}\n", field.name, text);
+        for_each_parameter(params, [&](const FieldText& field, const auto& value) {
+          add_line(field, value, lines);
         });
       },
       entry.method);

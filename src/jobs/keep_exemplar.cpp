@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* mark = "gramloom:kept";
+constexpr const char* kept_mark = "gramloom:kept";
 
 void write_picture(const fs::path& folder, const std::string& name, const Image& image,
                    const ExemplarFile& file) {
@@ -61,7 +61,7 @@ Image shown(const Image& guide) {
 // What is not there any more is removed: of a config that had it before.
 void write_or_remove(const fs::path& file, const Image& image) {
   if (!image.empty())
-    write_image(file, image, {}, {{mark, "yes"}});
+    write_image(file, image, {}, {{kept_mark, "yes"}});
   else if (is_kept(file))
     remove_file(file);
 }
@@ -75,7 +75,7 @@ Image shown_or_none(const Image& guide, Size least) {
 bool is_kept(const fs::path& file) {
   try {
     std::error_code ignored;
-    return fs::is_regular_file(file, ignored) && read_image(file).metadata.contains(mark);
+    return fs::is_regular_file(file, ignored) && read_image(file).metadata.contains(kept_mark);
   } catch (const Error&) {
     return false;
   }

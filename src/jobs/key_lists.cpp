@@ -54,24 +54,28 @@ std::vector<std::string> words_of() {
     return {};
 }
 
+template <class T>
+Key key_of(const FieldText& field, const T& standard) {
+  const Range anything;
+  Key key{std::string(field.name),
+          type_of<T>(),
+          value_to_json(standard, {}),
+          allowed_values<T>(field.range),
+          {},
+          {},
+          words_of<T>(),
+          std::string(field.unit),
+          std::string(field.meaning)};
+  if (field.range.min > anything.min) key.min = field.range.min;
+  if (field.range.max < anything.max) key.max = field.range.max;
+  return key;
+}
+
 template <class Params>
 std::vector<Key> keys_of(const Params& defaults = {}) {
   std::vector<Key> keys;
-  for_each_field<Params>([&](const auto& field) {
-    using T = typename std::decay_t<decltype(field)>::value_type;
-    const Range anything;
-    Key key{std::string(field.name),
-            type_of<T>(),
-            value_to_json(defaults.*field.member, {}),
-            allowed_values<T>(field.range),
-            {},
-            {},
-            words_of<T>(),
-            std::string(field.unit),
-            std::string(field.meaning)};
-    if (field.range.min > anything.min) key.min = field.range.min;
-    if (field.range.max < anything.max) key.max = field.range.max;
-    keys.push_back(std::move(key));
+  for_each_value(defaults, [&](const FieldText& field, const auto& standard) {
+    keys.push_back(key_of(field, standard));
   });
   return keys;
 }

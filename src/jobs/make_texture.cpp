@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* mark = "gramloom:settings";
+constexpr const char* settings_mark = "gramloom:settings";
 
 // The name of a procedural texture in place of an exemplar, or "".
 std::string texture_of(const MakeWork& work) {
@@ -135,8 +135,9 @@ std::string file_names(const NamedFiles<MapFile>& maps) {
 template <class Maps>
 void check_files(const MakeWork& work, const Config& config, const Maps& maps) {
   try {
-    check_result(work.output, config, mark);
-    for (const auto& [name, map] : maps) check_result(file_of_map(work.output, name), config, mark);
+    check_result(work.output, config, settings_mark);
+    for (const auto& [name, map] : maps)
+      check_result(file_of_map(work.output, name), config, settings_mark);
   } catch (const Error& error) {
     throw ConfigError("--output {}: {}", work.output.string(), error.what());
   }

@@ -83,8 +83,7 @@ Cost estimate_method(const Method& method, const RequestSize& request);
 /// sub-method that it holds.
 template <class Params, class F>
 void for_each_parameter(Params& params, F&& f) {
-  for_each_field<std::remove_const_t<Params>>(
-      [&](const auto& field) { f(field, params.*field.member); });
+  for_each_value(params, f);
   if constexpr (HasVariant<Params>)
     std::visit([&](auto& held) { for_each_parameter(held, f); }, params.texture);
 }

@@ -33,7 +33,7 @@ bool contains(const auto& list, std::string_view word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-[[noreturn]] void refuse_foreign(const fs::path& file) {
+[[noreturn]] void refuse_file_of_others(const fs::path& file) {
   throw Error("would replace {}, which no run of gramloom made", file.lexically_normal().string());
 }
 
@@ -119,7 +119,7 @@ class Guard {
   void check(const fs::path& file, const auto& is_ours) const {
     if (!is_there(file)) return;
     inputs_.check(file);
-    if (!is_ours(file)) refuse_foreign(file);
+    if (!is_ours(file)) refuse_file_of_others(file);
   }
 
   // Of the texture and its maps.
@@ -207,7 +207,7 @@ fs::path default_output(const Config& config) { return fs::path("out") / config.
 
 void check_page(const fs::path& folder) {
   const fs::path page = folder / "index.html";
-  if (is_there(page) && !is_page(page)) refuse_foreign(page);
+  if (is_there(page) && !is_page(page)) refuse_file_of_others(page);
 }
 
 }  // namespace gramloom

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* mark = "gramloom:maps";  // in the metadata of every map
+constexpr const char* maps_mark = "gramloom:maps";  // in the metadata of every map
 
 std::vector<std::string> names_of_maps(const MapWork& work) {
   std::vector<std::string> names;
@@ -106,7 +106,7 @@ Metadata metadata_of(const MapWork& work) {
   made_by[std::string(MapParams::name)] = to_json_value(work.maps);
   if (work.source == MapSource::photo)
     made_by[std::string(PhotoParams::name)] = to_json_value(work.photo);
-  return {{mark, to_text(made_by, -1, true)}};
+  return {{maps_mark, to_text(made_by, -1, true)}};
 }
 
 void note_guesses(MadeMaps& made, const std::string& name, const std::string& file) {
@@ -132,7 +132,7 @@ MadeMaps make_maps(const MapWork& work) {
       formats.push_back(format_of(work, picture, name, channels));
       made.files.push_back(
           folder / fmt::format("{}_{}{}", stem_of(work.picture), name, formats.back().extension));
-      check_replaced(made.files.back(), inputs, mark);
+      check_replaced(made.files.back(), inputs, maps_mark);
     }
   } catch (const ConfigError&) {
     throw;

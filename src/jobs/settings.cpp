@@ -10,12 +10,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+template <class T>
+void add_value(const FieldText& field, const T& value, const fs::path& folder, Json& json) {
+  json[std::string(field.name)] = value_to_json(value, folder);
+}
+
 // Those fields of a struct that are its own (not its sub-structs), as a JSON object.
 template <class Struct>
-Json fields_to_json(const Struct& value, const fs::path& folder) {
+Json fields_to_json(const Struct& params, const fs::path& folder) {
   Json json;
-  for_each_field<Struct>([&](const auto& field) {
-    json[std::string(field.name)] = value_to_json(value.*field.member, folder);
+  for_each_value(params, [&](const FieldText& field, const auto& value) {
+    add_value(field, value, folder, json);
   });
   return json;
 }
@@ -59,12 +64,10 @@ void add_direction(const Direction& direction, const Named<std::string>& hashes,
     if (!entry) return;
     Json& section = settings[std::string(Entry::section)];
     section = Json::object();
-    for_each_field<Entry>([&](const auto& field) {
-      using T = typename std::decay_t<decltype(field)>::value_type;
+    for_each_value(*entry, [&]<class T>(const FieldText& field, const T& value) {
       constexpr bool file = std::is_base_of_v<fs::path, T> ||
                             std::is_same_v<T, std::vector<fs::path>> || is_named_files<T>;
-      if constexpr (!file)
-        section[std::string(field.name)] = value_to_json(*entry.*field.member, {});
+      if constexpr (!file) add_value(field, value, {}, section);
     });
     for (const auto& [key, hash] : hashes)
       if (key.starts_with(fmt::format("{}.", Entry::section)))
@@ -83,8 +86,8 @@ Json method_to_json(const Method& method, const fs::path& folder) {
         if constexpr (HasVariant<Params>)
           json[std::string(Params::variant_key)] =
               std::visit([]<class T>(const T&) { return std::string(T::name); }, params.texture);
-        for_each_parameter(params, [&](const auto& field, const auto& value) {
-          json[std::string(field.name)] = value_to_json(value, folder);
+        for_each_parameter(params, [&](const FieldText& field, const auto& value) {
+          add_value(field, value, folder, json);
         });
       },
       method);

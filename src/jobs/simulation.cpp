@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* mark = "gramloom:simulation";  // in the metadata of every picture
-constexpr double most_bytes = 4e9;                   // of all pictures
+constexpr const char* simulation_mark = "gramloom:simulation";  // in the metadata of every picture
+constexpr double most_bytes = 4e9;                              // of all pictures
 
 void check_range(const toml::table& table, std::string_view key, const std::vector<double>& range) {
   if (range.size() != 2)
@@ -64,12 +64,12 @@ void check_folder(const Simulation& simulation, const fs::path& folder) {
   const ProtectedFiles inputs({{simulation.file, "the simulation reads"}});
   check_table(folder / "poses.csv", inputs);
   for (int i = 0; i < simulation.params.poses; ++i)
-    check_replaced(folder / picture_name(static_cast<std::size_t>(i)), inputs, mark);
+    check_replaced(folder / picture_name(static_cast<std::size_t>(i)), inputs, simulation_mark);
 }
 
 Metadata metadata_of(const Simulation& simulation, const Pose& pose) {
   const Json made_by{{"pose", to_json_value(pose)}, {"sleeve", to_json_value(simulation.sleeve)}};
-  return {{mark, to_text(made_by, -1, true)}};
+  return {{simulation_mark, to_text(made_by, -1, true)}};
 }
 
 }  // namespace

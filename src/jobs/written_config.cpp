@@ -31,8 +31,8 @@ std::string named_files_in_config(const NamedFiles<MapFile>& files) {
   std::string table;
   for (const auto& [name, file] : files) {
     std::string entry;
-    for_each_field<MapFile>([&, &map = file](const auto& field) {
-      if (const std::string text = value_in_config(map.*field.member); !text.empty())
+    for_each_value(file, [&](const FieldText& field, const auto& value) {
+      if (const std::string text = value_in_config(value); !text.empty())
         entry += fmt::format("{}{} = {}", entry.empty() ? "" : ", ", field.name, text);
     });
     table += fmt::format("{}{} = {}", table.empty() ? "" : ", ", quoted(name),
@@ -51,14 +51,22 @@ std::string exemplar_name(const fs::path& picture) {
   }
 }
 
+namespace {
+
+template <class T>
+std::string text_of_parameter(const T& value) {
+  const std::string text = value_in_config(value);
+  return text.empty() ? value_to_text(value) : text;
+}
+
+}  // namespace
+
 std::string parameter_text(const Method& method, std::string_view key) {
   std::string text;
   std::visit(
       [&](const auto& params) {
-        for_each_parameter(params, [&](const auto& field, const auto& value) {
-          if (field.name != key) return;
-          text = value_in_config(value);
-          if (text.empty()) text = value_to_text(value);
+        for_each_parameter(params, [&](const FieldText& field, const auto& value) {
+          if (field.name == key) text = text_of_parameter(value);
         });
       },
       method);

@@ -44,14 +44,19 @@ std::string value_in_config(const T& value) {
   }
 }
 
+/// Adds the line of a value, if it is set.
+template <class T>
+void add_line(const FieldText& field, const T& value, std::string& lines) {
+  if (const std::string text = value_in_config(value); !text.empty())
+    lines += fmt::format("{} = {}\n", field.name, text);
+}
+
 /// The fields of a struct that are set, a line each.
 template <class Struct>
-std::string lines_in_config(const Struct& value) {
+std::string lines_in_config(const Struct& params) {
   std::string lines;
-  for_each_field<Struct>([&](const auto& field) {
-    if (const std::string text = value_in_config(value.*field.member); !text.empty())
-      lines += fmt::format("{} = {}\n", field.name, text);
-  });
+  for_each_value(params,
+                 [&](const FieldText& field, const auto& value) { add_line(field, value, lines); });
   return lines;
 }
 

@@ -37,8 +37,8 @@ void for_each_kept(const Map& map, F&& f) {
 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
   std::map<std::string, std::string> numbers{{"identity", checkpoint.identity}};
-  for_each_field<Checkpoint>([&](const auto& field) {
-    numbers[std::string(field.name)] = to_text(checkpoint.*field.member);
+  for_each_value(checkpoint, [&](const FieldText& field, const auto& value) {
+    numbers[std::string(field.name)] = to_text(value);
   });
   for (const auto& [name, number] : checkpoint.optimiser.numbers)
     numbers[optimiser_prefix + name] = to_text(number);
@@ -58,9 +58,8 @@ std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& file,
   Checkpoint checkpoint;
   checkpoint.identity = numbers.at("identity");
   if (checkpoint.identity != identity) return {};
-  for_each_field<Checkpoint>([&](const auto& field) {
-    using T = typename std::decay_t<decltype(field)>::value_type;
-    checkpoint.*field.member = to_number<T>(numbers.at(std::string(field.name)));
+  for_each_value(checkpoint, [&]<class T>(const FieldText& field, T& value) {
+    value = to_number<T>(numbers.at(std::string(field.name)));
   });
   for_each_kept(numbers, [&](const std::string& name, const std::string& text) {
     checkpoint.optimiser.numbers[name] = to_number<double>(text);

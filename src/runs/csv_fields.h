@@ -61,7 +61,8 @@ inline constexpr std::size_t field_count = std::tuple_size_v<decltype(Row::field
 template <class Row, class T>
 CsvRow field_cells(const Row& row, const std::vector<T>& more) {
   CsvRow cells;
-  for_each_field<Row>([&](const auto& field) { cells.push_back(to_cell(row.*field.member)); });
+  for_each_value(row,
+                 [&](const FieldText&, const auto& value) { cells.push_back(to_cell(value)); });
   for (const T& value : more) cells.push_back(to_cell(value));
   return cells;
 }
@@ -71,10 +72,9 @@ template <class Row, class T>
 Row row_of_cells(const CsvRow& cells, std::vector<T> Row::*more) {
   Row row;
   std::size_t column = 0;
-  for_each_field<Row>([&](const auto& field) {
-    using Value = typename std::decay_t<decltype(field)>::value_type;
+  for_each_value(row, [&]<class Value>(const FieldText& field, Value& value) {
     try {
-      row.*field.member = from_cell<Value>(cells.at(column++));
+      value = from_cell<Value>(cells.at(column++));
     } catch (const Error& error) {
       throw Error("{}: {}", field.name, error.what());
     }

@@ -17,15 +17,11 @@ namespace {
 
 constexpr std::int64_t grain = 8192;  // pixels
 
-std::int64_t pixel_count(const Image& image) {
-  return static_cast<std::int64_t>(image.width) * image.height;
-}
-
 /// The sum over all pixels of what `add` adds to an array of `count`. The order of the additions
 /// depends on the image alone.
 std::vector<double> sum_over_pixels(const Image& image, std::size_t count,
                                     const std::function<void(const float*, double*)>& add) {
-  const std::int64_t pixels = pixel_count(image);
+  const auto pixels = static_cast<std::int64_t>(pixel_count(image.size()));
   const auto chunks = static_cast<std::size_t>((pixels + grain - 1) / grain);
   std::vector<double> partial(chunks * count);
   parallel_for(pixels, grain, [&](std::int64_t begin, std::int64_t end) {
@@ -101,7 +97,8 @@ Image transformed(const Image& image, const std::vector<float>& offset_in,
     throw Error("an image of {} channels does not fit principal axes of {}", image.channels,
                 offset_in.size());
   Image result(image.size(), image.channels);
-  parallel_for(pixel_count(image), grain, [&](std::int64_t begin, std::int64_t end) {
+  const auto pixels = static_cast<std::int64_t>(pixel_count(image.size()));
+  parallel_for(pixels, grain, [&](std::int64_t begin, std::int64_t end) {
     std::vector<float> centred(channels);
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
       const float* in = image.pixels.data() + i * channels;
@@ -122,7 +119,7 @@ Image transformed(const Image& image, const std::vector<float>& offset_in,
 ColourPca colour_pca(const Image& image) {
   if (image.empty()) throw Error("an empty image has no principal colours");
   const auto n = static_cast<std::size_t>(image.channels);
-  const auto pixels = static_cast<double>(pixel_count(image));
+  const auto pixels = area(image.size());
   auto mean = sum_over_pixels(image, n, [n](const float* x, double* sum) {
     for (std::size_t c = 0; c < n; ++c) sum[c] += static_cast<double>(x[c]);
   });

@@ -13,16 +13,16 @@ constexpr double least_variance = 1e-6;
 
 std::size_t index_of(int value) { return static_cast<std::size_t>(value); }
 
-constexpr std::int64_t rows_at_once = 16;
+constexpr std::int64_t rows_of_a_sum = 16;
 
 // Mean products of an image's channels, from `from` on, with all before and themselves. The order
 // of the additions depends on the image alone.
 std::vector<double> mean_products(const Image& image, int from) {
   const std::size_t n = index_of(image.channels);
-  const auto chunks = static_cast<std::size_t>((image.height + rows_at_once - 1) / rows_at_once);
+  const auto chunks = static_cast<std::size_t>((image.height + rows_of_a_sum - 1) / rows_of_a_sum);
   std::vector<double> partial(chunks * n * n);
-  parallel_for(image.height, rows_at_once, [&](std::int64_t begin, std::int64_t end) {
-    double* sums = partial.data() + static_cast<std::size_t>(begin / rows_at_once) * n * n;
+  parallel_for(image.height, rows_of_a_sum, [&](std::int64_t begin, std::int64_t end) {
+    double* sums = partial.data() + static_cast<std::size_t>(begin / rows_of_a_sum) * n * n;
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
       for (int x = 0; x < image.width; ++x) {
         const float* pixel = image.at(x, y);

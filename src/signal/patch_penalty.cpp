@@ -61,8 +61,9 @@ struct ShiftCounts {
       : width((shifts.width + side - 1) / side * side),
         rows((origins.height + 3 * side) / side * side),
         counts(pixel_count({width, rows})) {}
-  int* at(int y) { return counts.data() + pixel_count({width, y % rows}); }
-  const int* at(int y) const { return counts.data() + pixel_count({width, y % rows}); }
+  int* at(int y) { return counts.data() + row(y); }
+  const int* at(int y) const { return counts.data() + row(y); }
+  std::size_t row(int y) const { return to_size(width) * to_size(y % rows); }
 };
 
 /// Calls f(row of squares, counts) for all rows of the penalty's squares, when their shifts are

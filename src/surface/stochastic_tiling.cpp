@@ -13,7 +13,7 @@ namespace gramloom {
 
 namespace {
 
-constexpr std::int64_t rows_at_once = 4;
+constexpr std::int64_t tiled_rows_at_once = 4;
 constexpr int power_steps = 1024;
 
 TilingLattice::Shape lattice_shape(Size exemplar, const TilingParams& params, Size result,
@@ -223,7 +223,7 @@ void StochasticTiling::turn_slopes(const TilingPiece& piece, float* values) cons
 void StochasticTiling::rows(int first, int count, int width, float* to) const {
   const std::size_t row_values =
       static_cast<std::size_t>(width) * static_cast<std::size_t>(channels());
-  parallel_for(count, rows_at_once, [&](std::int64_t begin, std::int64_t end) {
+  parallel_for(count, tiled_rows_at_once, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = begin; i < end; ++i) {
       float* const row = to + static_cast<std::size_t>(i) * row_values;
       for (int x = 0; x < width;) x = run(x, first + static_cast<int>(i), width, row);

@@ -11,7 +11,7 @@
 namespace gramloom {
 namespace {
 
-Image grain(Size size, int channels) {
+Image fine_grain(Size size, int channels) {
   Image image(size, channels);
   Random random(1);
   for (float& value : image.pixels) value = random.uniform();
@@ -56,9 +56,9 @@ TEST_P(NeuralMemory, IsAtMostTheEstimate) {
   params.iterations = {2, 1};
   change(params);
   if (params.layout != Layout::noise) params.flow_steps = {1};          // all take as much
-  bytes_of(params, grain({64, 64}, channels), {{64, 64}, Tile::both});  // the libraries start
+  bytes_of(params, fine_grain({64, 64}, channels), {{64, 64}, Tile::both});  // the libraries start
   const double estimated = estimate(params, {{{exemplar, channels}}, target, Tile::both}).bytes;
-  const double found = bytes_of(params, grain(exemplar, channels), {target, Tile::both});
+  const double found = bytes_of(params, fine_grain(exemplar, channels), {target, Tile::both});
   RecordProperty("found", fmt::format("{:.1f}", found / 1e6));
   RecordProperty("estimated", fmt::format("{:.1f}", estimated / 1e6));
   EXPECT_LE(found, estimated);

@@ -12,12 +12,12 @@
 namespace gramloom::neural {
 namespace {
 
-struct Case {
+struct PatchCase {
   std::int64_t channels, height, width, kernel;
   Tile wraps;
 };
 
-void PrintTo(const Case& c, std::ostream* out) {
+void PrintTo(const PatchCase& c, std::ostream* out) {
   *out << c.channels << " channels of " << c.width << "×" << c.height << ", patches of " << c.kernel
        << ", wraps " << static_cast<int>(c.wraps);
 }
@@ -41,9 +41,9 @@ at::Tensor brute_force(const at::Tensor& planes, const at::Tensor& filters, Tile
   return result;
 }
 
-class Patches : public testing::TestWithParam<Case> {
+class Patches : public testing::TestWithParam<PatchCase> {
  protected:
-  Case c = GetParam();
+  PatchCase c = GetParam();
   at::Tensor planes = numbers({c.channels, c.height, c.width}, 1, at::kDouble);
   at::Tensor filters = numbers({4, c.channels, c.kernel, c.kernel}, 2, at::kDouble);
 };
@@ -88,8 +88,8 @@ TEST_P(Patches, OneThreadGivesTheBytesOfTwo) {
   EXPECT_TRUE(at::equal(spread, spread_alone));
 }
 
-std::vector<Case> cases() {
-  std::vector<Case> all;
+std::vector<PatchCase> patch_cases() {
+  std::vector<PatchCase> all;
   for (const Tile wraps : {Tile::none, Tile::x, Tile::y, Tile::both}) {
     for (std::int64_t channels = 1; channels <= 5; ++channels)
       all.push_back({channels, 9 + channels, 13 - channels, 3, wraps});
@@ -109,7 +109,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, Patches, testing::ValuesIn(cases()));
+INSTANTIATE_TEST_SUITE_P(Cases, Patches, testing::ValuesIn(patch_cases()));
 
 // oneDNN's products use the register of the stack pointer otherwise: no handler may run meanwhile.
 TEST(PatchesUnderSignals, AreTheSame) {

@@ -31,13 +31,13 @@ std::size_t bands_of(Size size) {
   return bands;
 }
 
-struct Moments {
+struct BandMoments {
   std::vector<float> mean, deviation;
   std::int64_t pixels = 0;
 };
 
 // Of each region.
-std::vector<Moments> moments(const Image& image, const Regions& regions) {
+std::vector<BandMoments> band_moments(const Image& image, const Regions& regions) {
   const auto channels = static_cast<std::size_t>(image.channels);
   const auto count = static_cast<std::size_t>(regions.count);
   std::vector<double> sum(channels * count), squares(channels * count);
@@ -60,9 +60,9 @@ std::vector<Moments> moments(const Image& image, const Regions& regions) {
     const double d = value - sum[to];
     squares[to] += d * d;
   });
-  std::vector<Moments> result(count);
+  std::vector<BandMoments> result(count);
   for (std::size_t i = 0; i < sum.size(); ++i) {
-    Moments& m = result[i / channels];
+    BandMoments& m = result[i / channels];
     m.pixels = pixels[i / channels];
     m.mean.push_back(static_cast<float>(sum[i]));
     m.deviation.push_back(static_cast<float>(
@@ -90,12 +90,12 @@ std::vector<BandStatistics> band_statistics(const Image& image, Tile wraps, Size
   for_each_band(
       image, wraps, std::min(bands_of(image.size()), bands_of(picture)),
       [&](const Image& band) {
-        const auto of_regions = moments(band, regions);
+        const auto of_regions = band_moments(band, regions);
         for (std::size_t r = 0; r < statistics.size(); ++r)
           statistics[r].deviation.push_back(of_regions[r].deviation);
       },
       [&](const Image& rest) {
-        const auto of_regions = moments(rest, regions);
+        const auto of_regions = band_moments(rest, regions);
         for (std::size_t r = 0; r < statistics.size(); ++r) {
           statistics[r].deviation.push_back(of_regions[r].deviation);
           statistics[r].mean = of_regions[r].mean;
@@ -116,7 +116,7 @@ void match_bands(Image& image, const std::vector<BandStatistics>& exemplar, cons
   const auto channels = static_cast<std::size_t>(image.channels);
   Image result(image.size(), image.channels);
   // Calls f(value to add to, the part's value, region, channel), or adds what is in no region.
-  const auto add = [&](const Image& part, const std::vector<Moments>& own, auto&& f) {
+  const auto add = [&](const Image& part, const std::vector<BandMoments>& own, auto&& f) {
     for (std::size_t i = 0; i < part.pixels.size(); ++i) {
       const std::int32_t region = regions.region.empty() ? 0 : regions.region[i / channels];
       const auto r = static_cast<std::size_t>(region);
@@ -129,7 +129,7 @@ void match_bands(Image& image, const std::vector<BandStatistics>& exemplar, cons
     }
   };
   // Those of the band for each region.
-  const auto factors_of = [&](std::size_t band, const std::vector<Moments>& own) {
+  const auto factors_of = [&](std::size_t band, const std::vector<BandMoments>& own) {
     std::vector<std::vector<float>> result_factors;
     for (std::size_t r = 0; r < own.size(); ++r)
       result_factors.push_back(factors(exemplar[r].deviation[band], own[r].deviation));
@@ -139,14 +139,14 @@ void match_bands(Image& image, const std::vector<BandStatistics>& exemplar, cons
   for_each_band(
       image, Tile::both, bands,
       [&](const Image& part) {
-        const auto own = moments(part, regions);
+        const auto own = band_moments(part, regions);
         const auto factor = factors_of(band++, own);
         add(part, own, [&](float& to, float value, std::size_t r, std::size_t c) {
           to += value * factor[r][c];
         });
       },
       [&](const Image& rest) {
-        const auto own = moments(rest, regions);
+        const auto own = band_moments(rest, regions);
         const auto factor = factors_of(exemplar.front().deviation.size() - 1, own);
         add(rest, own, [&](float& to, float value, std::size_t r, std::size_t c) {
           to += rest_too ? (value - own[r].mean[c]) * factor[r][c] + exemplar[r].mean[c] : value;

@@ -15,7 +15,7 @@ namespace gramloom::neural {
 namespace {
 
 constexpr std::int64_t patches_for_axes = 4000;
-constexpr std::int64_t places_at_once = 256;
+constexpr std::int64_t patches_at_once = 256;
 
 // A patch's values, going on across the picture's edges.
 void copy_patch(const Image& image, PatchPlace place, int side, float* to) {
@@ -83,7 +83,7 @@ PatchAxes patch_axes(const Image& image, int side, int count, Random random,
 Vectors project(const Image& image, const std::vector<PatchPlace>& places, const PatchAxes& axes) {
   const std::int64_t values = axes.axes.dimensions, kept = axes.axes.count;
   Vectors result(static_cast<std::int64_t>(places.size()), kept);
-  parallel_for(result.count, places_at_once, [&](std::int64_t begin, std::int64_t end) {
+  parallel_for(result.count, patches_at_once, [&](std::int64_t begin, std::int64_t end) {
     const InThisThread in_this_thread;
     const auto patches =
         std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>((end - begin) * values));

@@ -9,11 +9,11 @@ namespace gramloom::neural {
 
 namespace {
 
-struct Moments {
+struct Brightness {
   double variance, skewness;
 };
 
-Moments moments(const Image& grey) {
+Brightness brightness_of(const Image& grey) {
   const auto count = static_cast<double>(grey.pixels.size());
   double mean = 0, second = 0, third = 0;
   for (const float value : grey.pixels) mean += value;
@@ -40,10 +40,11 @@ Image grey(const Image& image) {
 
 double sparse_detail(const Image& image) {
   const Image whole = grey(image);
-  const Moments fine = moments(whole);
+  const Brightness fine = brightness_of(whole);
   if (fine.variance <= 0) return 0;
   const auto quarter = [](int side) { return std::max(1, side / 4); };
-  const Moments coarse = moments(resize(whole, {quarter(image.width), quarter(image.height)}));
+  const Brightness coarse =
+      brightness_of(resize(whole, {quarter(image.width), quarter(image.height)}));
   return std::abs(fine.skewness) * std::max(0.0, 1 - coarse.variance / fine.variance);
 }
 

@@ -18,7 +18,7 @@ namespace gramloom::neural {
 
 namespace {
 
-enum class Stream : std::uint64_t { flat = 1, sample, exemplar, draws, tags, bins };
+enum class DirectedStream : std::uint64_t { flat = 1, sample, exemplar, draws, tags, bins };
 
 // Columns of rows of floats.
 at::Tensor columns(const at::Tensor& rows, const Indices& wanted) {
@@ -78,15 +78,16 @@ class DirectedSliced : public PictureTerm {
     const DirectedPlaces& all = places_[step % places_.size()];
     if (all.counted.empty()) return 0;
     const Random random = random_.stream(step);
-    const Indices sample = sample_of(std::ssize(all.counted), random.stream(part(Stream::sample)));
+    const Indices sample =
+        sample_of(std::ssize(all.counted), random.stream(part(DirectedStream::sample)));
     std::vector<PatchPlace> places;
     for (const std::int64_t i : sample) places.push_back(all.counted[static_cast<std::size_t>(i)]);
     const auto goals = goal_places(all, sample, random);
     const std::vector<MixBin> bins =
-        mix_bins(all.shares, sample, random.stream(part(Stream::bins)));
+        mix_bins(all.shares, sample, random.stream(part(DirectedStream::bins)));
     const at::Tensor filters = filters_of(all.side, step);
     const at::Tensor tag_filters =
-        normal_numbers(random.stream(part(Stream::tags)), {directions_, all.tags.length});
+        normal_numbers(random.stream(part(DirectedStream::tags)), {directions_, all.tags.length});
     std::size_t most = places.size();
     for (const auto& of_exemplar : goals) most = std::max(most, of_exemplar.size());
     const std::int64_t at_once =
@@ -111,7 +112,7 @@ class DirectedSliced : public PictureTerm {
   }
 
  private:
-  static std::uint64_t part(Stream stream) { return std::uint64_t(stream); }
+  static std::uint64_t part(DirectedStream stream) { return std::uint64_t(stream); }
 
   // Whether each patch has a goal of its own.
   static bool is_paired(const DirectedPlaces& places) {
@@ -123,7 +124,8 @@ class DirectedSliced : public PictureTerm {
     std::vector<PatchPlace> all;
     for (const auto& of_exemplar : places.usable)
       all.insert(all.end(), of_exemplar.begin(), of_exemplar.end());
-    all = some_of(all, static_cast<std::size_t>(positions_), random_.stream(part(Stream::flat)));
+    all = some_of(all, static_cast<std::size_t>(positions_),
+                  random_.stream(part(DirectedStream::flat)));
     const at::Tensor filters = filters_of(places.side, 0);
     const std::int64_t at_once =
         std::max(least_directions_at_once, sliced_values_at_once / std::ssize(all));
@@ -161,7 +163,7 @@ class DirectedSliced : public PictureTerm {
                                                    Random random) const {
     std::vector<std::vector<PatchPlace>> goals(all.usable.size());
     for (std::size_t e = 0; e < goals.size(); ++e) {
-      Random own = random.stream(part(Stream::draws)).stream(e);
+      Random own = random.stream(part(DirectedStream::draws)).stream(e);
       if (!all.nearest.empty()) {
         for (const std::int64_t i : sample)
           goals[e].push_back(all.nearest[e][static_cast<std::size_t>(i)]);

@@ -12,7 +12,7 @@ namespace gramloom::neural {
 namespace {
 
 // Positions whose patches are worked on at once: few enough for the cache of a core.
-constexpr std::int64_t positions_at_once = 768;
+constexpr std::int64_t slopes_at_once = 768;
 
 // Rows of positions are shared out, at least a patch's height to each share, so that what a share
 // adds reaches no further than into the next one; on an axis that wraps, that of the last one is
@@ -34,8 +34,8 @@ struct Piece {
 // Calls f(piece) for all positions of rows `begin` to `end`.
 template <class F>
 void for_each_position(const PatchPositions& p, std::int64_t begin, std::int64_t end, F&& f) {
-  const std::int64_t parts = (p.columns + positions_at_once - 1) / positions_at_once;
-  const std::int64_t rows = std::max<std::int64_t>(1, positions_at_once / p.columns);
+  const std::int64_t parts = (p.columns + slopes_at_once - 1) / slopes_at_once;
+  const std::int64_t rows = std::max<std::int64_t>(1, slopes_at_once / p.columns);
   for (std::int64_t y = begin; y < end; y += rows)
     for (std::int64_t part = 0; part < parts; ++part) {
       const std::int64_t x = part * p.columns / parts;
@@ -74,8 +74,8 @@ void add_slopes(
     return std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(count));
   };
   const auto add_share = [&](std::int64_t share) {
-    const auto patches = values(p.taps() * positions_at_once),
-               products = values(filters.size(0) * positions_at_once);
+    const auto patches = values(p.taps() * slopes_at_once),
+               products = values(filters.size(0) * slopes_at_once);
     for_each_position(p, shares.begin(share), shares.begin(share + 1), [&](const Piece& piece) {
       const std::int64_t count = piece.count();
       for_each_line(p, piece, [&](std::int64_t from, std::int64_t to, std::int64_t some) {

@@ -39,25 +39,25 @@ void execute(const dnnl::primitive& primitive, const std::unordered_map<int, mem
   stream.wait();
 }
 
-// What a plan is made for. Zero padding is the convolution's own; other padding comes before it.
-struct Shape {
-  std::int64_t height, width;  // of the input
-  std::int64_t zeros_y, zeros_x;
-  bool planes, relu;
-  auto operator<=>(const Shape&) const = default;
-};
-
-struct Plan {
-  dnnl::convolution_forward forward;
-  dnnl::convolution_backward_data backward;
-  memory::desc input, output;
-  memory forward_weights, backward_weights;
-  std::int64_t height, width;  // of the output
-};
-
 }  // namespace
 
 struct ConvolutionState : torch::CustomClassHolder {
+  // What a plan is made for. Zero padding is the convolution's own; other padding comes before it.
+  struct Shape {
+    std::int64_t height, width;  // of the input
+    std::int64_t zeros_y, zeros_x;
+    bool planes, relu;
+    auto operator<=>(const Shape&) const = default;
+  };
+
+  struct Plan {
+    dnnl::convolution_forward forward;
+    dnnl::convolution_backward_data backward;
+    memory::desc input, output;
+    memory forward_weights, backward_weights;
+    std::int64_t height, width;  // of the output
+  };
+
   at::Tensor weights, bias;
   std::int64_t dilation;
   std::map<Shape, Plan> plans;
@@ -133,8 +133,9 @@ struct ConvolutionFunction : torch::autograd::Function<ConvolutionFunction> {
   static at::Tensor forward(torch::autograd::AutogradContext* context, const at::Tensor& input,
                             StatePtr state, std::int64_t zeros_y, std::int64_t zeros_x, bool relu) {
     const bool planes = input.dim() == 3;
-    const Shape shape{input.size(1), input.size(2), zeros_y, zeros_x, planes, relu};
-    const Plan& plan = state->plan(shape);
+    const ConvolutionState::Shape shape{input.size(1), input.size(2), zeros_y,
+                                        zeros_x,       planes,        relu};
+    const ConvolutionState::Plan& plan = state->plan(shape);
     const std::int64_t block = channel_block();
     at::Tensor output = at::empty(
         {(state->outputs() + block - 1) / block, plan.height, plan.width, block}, input.options());
@@ -157,8 +158,8 @@ struct ConvolutionFunction : torch::autograd::Function<ConvolutionFunction> {
     const auto state = c10::static_intrusive_pointer_cast<ConvolutionState>(
         context->saved_data["state"].toCapsule());
     const auto s = context->saved_data["shape"].toIntVector();
-    const Shape shape{s[0], s[1], s[2], s[3], s[4] != 0, s[5] != 0};
-    const Plan& plan = state->plan(shape);
+    const ConvolutionState::Shape shape{s[0], s[1], s[2], s[3], s[4] != 0, s[5] != 0};
+    const ConvolutionState::Plan& plan = state->plan(shape);
     at::Tensor upstream = gradients[0].contiguous();
     if (shape.relu)
       upstream = at::threshold_backward(upstream, context->get_saved_variables()[0], 0);
