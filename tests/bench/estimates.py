@@ -4,7 +4,7 @@
   tests/bench/estimates.py GRAMLOOM [KIND...]
 
 Each case is a run of its own of one job, without scores. On a quiet machine: a ratio is measured by
-estimated, 1 is right. The exemplars are data/pebbles.png, cut or repeated; needs Pillow and NumPy.
+estimated, 1 is right. The exemplars are procedural pebbles; needs Pillow and NumPy.
 """
 
 import json
@@ -18,7 +18,6 @@ from pathlib import Path
 import numpy
 from PIL import Image
 
-DATA = Path(__file__).resolve().parents[2] / "data"
 # kind, its keys, and the largest products of exemplar side and result side that are worth the wait
 METHODS = [
     ("histogram", "", 1e9),
@@ -42,15 +41,17 @@ SIZES = [(128, 128), (128, 512), (512, 512), (512, 1024), (1024, 512), (256, 204
 CHANNELS = [1, 3, 4]
 
 
-def exemplar(folder, side, channels):
+def exemplar(gramloom, folder, side, channels):
+    """Stones of the same size whatever the side is: no part of it is repeated."""
     file = folder / f"pebbles_{side}_{channels}.png"
     if file.exists():
         return file
-    picture = numpy.asarray(Image.open(DATA / "pebbles.png").convert("RGB"))
-    times = -(-side // min(picture.shape[:2]))
-    values = numpy.tile(picture, (times, times, 1))[:side, :side].astype(int)
-    values += numpy.random.default_rng(1).integers(-3, 4, values.shape)  # repeated, but not the same
-    values = values.clip(0, 255).astype(numpy.uint8)
+    config = folder / f"pebbles_{side}.toml"
+    config.write_text(f'size = {side}\nscores = false\n[[method]]\nname = "pebbles"\nkind = "procedural"\n'
+                      f'texture = "pebbles"\nscale = {side / 24}\n')
+    subprocess.run([gramloom, "run", config, "--output", folder / "made", "--quiet"], check=True)
+    values = numpy.asarray(Image.open(next((folder / "made").rglob("seed1.png"))).convert("RGB"))
+    subprocess.run(["rm", "-rf", folder / "made"], check=True)
     if channels == 1:
         values = values[..., 1]
     if channels == 4:
@@ -76,7 +77,7 @@ def compare(gramloom, folder, kind, keys, side, channels, size):
     takes_exemplar = kind not in ("procedural", "generator")
     config.write_text(
         f"size = [{size}, {size}]\nscores = false\n"
-        + (f'[[exemplar]]\nname = "e"\nimage = "{exemplar(folder, side, channels)}"\n' if takes_exemplar else "")
+        + (f'[[exemplar]]\nname = "e"\nimage = "{exemplar(gramloom, folder, side, channels)}"\n' if takes_exemplar else "")
         + f'[[method]]\nname = "m"\nkind = "{kind}"\n{keys}\n')
     checked = subprocess.run([gramloom, "check", config, "--json"], capture_output=True, text=True)
     if checked.returncode:
