@@ -4,8 +4,10 @@
 
 namespace gramloom {
 
-GRAMLOOM_SIMD void detail::cells(const Lattice<2>& lattice, const Point<2>& p, float jitter,
-                                 float rounding, Cells& found) {
+namespace {
+
+GRAMLOOM_INLINE Cells cells_around(const Lattice<2>& lattice, const Point<2>& p, float jitter,
+                                   float rounding) {
   const Floats x[2] = {p.at[0] * lattice.frequency[0], p.at[1] * lattice.frequency[1]};
   const Ints base[2] = {to_ints(floor(x[0])), to_ints(floor(x[1]))};
   const Floats offset[2] = {fraction(x[0]), fraction(x[1])};
@@ -44,7 +46,16 @@ GRAMLOOM_SIMD void detail::cells(const Lattice<2>& lattice, const Point<2>& p, f
   cell.second = sqrt(cell.second);
   cell.dx = -cell.dx;
   cell.dy = -cell.dy;
-  found = cell;
+  return cell;
+}
+
+}  // namespace
+
+GRAMLOOM_SIMD void detail::cells(const Lattice<2>& lattice, const Point<2>& p, float jitter,
+                                 float rounding, Cells& found) {
+  // Most ask for no rounding, and then nothing of it is left in the loop.
+  found = rounding > 0 ? cells_around(lattice, p, jitter, rounding)
+                       : cells_around(lattice, p, jitter, 0);
 }
 
 }  // namespace gramloom
