@@ -26,6 +26,11 @@ install(PROGRAMS configs/cluster/array.sbatch DESTINATION ${CMAKE_INSTALL_DATADI
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+# What these pages show and link lies beside them as it does here.
+install(DIRECTORY data/readme DESTINATION ${CMAKE_INSTALL_DOCDIR}/data COMPONENT program)
+install(FILES models/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/models COMPONENT program)
+install(FILES tests/golden/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/tests/golden COMPONENT program)
+install(FILES configs/cluster/array.sbatch DESTINATION ${CMAKE_INSTALL_DOCDIR}/configs/cluster COMPONENT program)
 
 # The manual and completions: the program prints them.
 install(CODE "

@@ -61,7 +61,7 @@ std::string config_of(const FillWork& work) {
 }
 
 std::vector<std::string> fill_picture(const FillWork& work, const Control& control) {
-  Config config = parse_config(config_of(work), "fill");
+  Config config = parse_unseen_config(config_of(work), "fill");
   check_output_file(work, config);
   LoadedRequest loaded = load_request(config, 0);
   const std::vector<ExemplarFile> files = std::move(loaded.files);

@@ -50,6 +50,11 @@ std::string method_section(const MakeWork& work, const std::string& texture) {
   const std::string kind(!work.kind.empty() ? work.kind
                          : texture.empty()  ? NeuralParams::kind
                                             : ProceduralParams::kind);
+  if (!texture.empty() && kind != ProceduralParams::kind)
+    throw ConfigError(
+        "--kind {}: makes textures of pictures; '{}' is no file, but the name of a "
+        "procedural texture",
+        kind, texture);
   const std::vector<std::string> set = settings_of(work, kind);
   const Method method = method_of(kind, texture, set);
   std::string text = fmt::format("\n[[method]]\nname = {}\nkind = {}\n",
@@ -76,7 +81,18 @@ NamedFiles<MapFile> maps_of(const MakeWork& work) {
   return look ? maps_beside(work.exemplars.front()) : work.maps;
 }
 
+// A procedural texture is named by itself.
+void check_pictures(const MakeWork& work) {
+  for (const std::string& exemplar : work.exemplars)
+    if (!fs::exists(exemplar))
+      throw ConfigError("there is no file {}{}", exemplar,
+                        FileOrName(exemplar).is_name()
+                            ? ": the name of a procedural texture stands by itself"
+                            : "");
+}
+
 std::string exemplar_section(const MakeWork& work) {
+  check_pictures(work);
   std::string text =
       fmt::format("\n[[exemplar]]\nname = {}\n", quoted(exemplar_name(work.exemplars.front())));
   if (work.exemplars.size() == 1)
@@ -157,7 +173,7 @@ std::string config_of(const MakeWork& work) {
 }
 
 MadeFiles make_texture(const MakeWork& work, const Control& control) {
-  const Config config = parse_config(config_of(work), "make");
+  const Config config = parse_unseen_config(config_of(work), "make");
   const Plan plan = plan_of(work, config);
   check_possible(config, plan);
   const auto maps =

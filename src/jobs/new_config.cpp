@@ -129,7 +129,7 @@ std::string config_text(const std::vector<fs::path>& pictures, const fs::path& f
 
 // The plan of a config that can be run as it is.
 Plan checked_plan(const std::string& text, const fs::path& file) {
-  Plan plan = make_plan(parse_config(text, file));
+  Plan plan = make_plan(parse_unseen_config(text, file));
   for (const PlannedJob& job : plan.jobs)
     if (!job.error.empty()) throw ConfigError("{}", job.error);
   return plan;
@@ -150,6 +150,9 @@ void write_new_config(const fs::path& file, const std::vector<fs::path>& picture
   const std::vector<fs::path> from =
       pictures.empty() ? std::vector{models_folder().parent_path() / "data" / "pebbles.png"}
                        : pictures;
+  for (const fs::path& picture : from)
+    if (!fs::exists(picture))
+      throw ConfigError("--from {}: there is no such picture or folder", picture.string());
   std::string text = config_text(from, file, false);
   const Plan plan = checked_plan(text, file);
   const bool shrink = std::ranges::any_of(plan.exemplars, [](const ExemplarFacts& facts) {

@@ -53,6 +53,18 @@ std::string exemplar_name(const fs::path& picture) {
 
 namespace {
 
+// Without "make:8:1: " before it.
+std::string without_place(const std::string& message, const std::string& file) {
+  const std::string digits = "0123456789";
+  std::size_t end = 0;
+  if (!message.starts_with(file + ":")) return message;
+  end = message.find_first_not_of(digits, file.size() + 1);
+  if (end == std::string::npos || message[end] != ':') return message;
+  end = message.find_first_not_of(digits, end + 1);
+  if (end == std::string::npos || !message.substr(end).starts_with(": ")) return message;
+  return message.substr(end + 2);
+}
+
 template <class T>
 std::string text_of_parameter(const T& value) {
   const std::string text = value_in_config(value);
@@ -60,6 +72,14 @@ std::string text_of_parameter(const T& value) {
 }
 
 }  // namespace
+
+Config parse_unseen_config(const std::string& text, const fs::path& file) {
+  try {
+    return parse_config(text, file);
+  } catch (const ConfigError& error) {
+    throw ConfigError("{}", without_place(error.what(), file.string()));
+  }
+}
 
 std::string parameter_text(const Method& method, std::string_view key) {
   std::string text;

@@ -60,6 +60,10 @@ std::string lines_in_config(const Struct& params) {
   return lines;
 }
 
+/// parse_config() of a text that the user has not written and does not see: its errors say what is
+/// wrong, but not in which line.
+Config parse_unseen_config(const std::string& text, const std::filesystem::path& file);
+
 /// The parameter `key` of a method as a config of any folder says it; "" of one that is not set.
 std::string parameter_text(const Method& method, std::string_view key);
 

@@ -122,9 +122,10 @@ TEST_F(MakeCommand, MistakesAreOneLineAndExitCode2) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{}, "exemplars"},
       {{"e.png"}, "--output or --print-config"},
-      {{"nothing.png", "--output", "a.png"}, "nothing.png"},
+      // Of a config that nobody has written, no line is named.
+      {{"nothing.png", "--output", "a.png"}, "there is no file nothing.png"},
       {{"nothing", "--output", "a.png"}, "nothing"},
-      {{"e.png", "nothing", "--output", "a.png"}, "nothing"},
+      {{"e.png", "brick", "--output", "a.png"}, "procedural texture stands by itself"},
       {{"e.png", "--output", "e.png"}, "would write over e.png"},
       {{"e.png", "--output", "mine.png"}, "would replace mine.png"},
       {{"brick", "--size", "32", "--output", "b.png"}, "would replace b_height.png"},
@@ -135,7 +136,8 @@ TEST_F(MakeCommand, MistakesAreOneLineAndExitCode2) {
       {{"e.png", "--output", "a.png", "--kind", "pixle"}, "pixle"},
       {{"e.png", "--output", "a.png", "--kind", "pixel", "--preset", "fast"}, "has no presets"},
       {{"brick", "--output", "a.png", "--preset", "fast"}, "has no presets"},
-      {{"brick", "--output", "a.png", "--kind", "pixel"}, "texture"},
+      {{"brick", "--output", "a.png", "--kind", "pixel"},
+       "--kind pixel: makes textures of pictures"},
       {{"e.png", "--output", "a.png", "--set", "direction=3"}, "did you mean 'directions'"},
       {{"e.png", "--output", "a.png", "--set", "directions=0"}, "directions"},
       {{"e.png", "--output", "a.png", "--set", "kind=pixel"}, "parameters of the method"},

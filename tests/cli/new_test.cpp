@@ -76,7 +76,7 @@ TEST_F(NewCommand, MistakesAreOneLineAndExitCode2AndNothingIsReplaced) {
       {{"c.toml", "--from", "e.png"}, "c.toml is there already"},
       {{"n.txt"}, ".toml"},
       {{"none/n.toml"}, "there is no folder"},
-      {{"n.toml", "--from", "nothing.png"}, "nothing.png"},
+      {{"n.toml", "--from", "nothing.png"}, "--from nothing.png: there is no such picture"},
       {{"n.toml", "--from", "empty"}, "no picture"},
       {{"n.toml", "--from", "c.toml"}, "c.toml"},
   };

@@ -21,7 +21,13 @@ if ldd "$gramloom" "$temp"/usr/lib/gramloom/*.so | grep -e 'gramloom.*not found'
 "$gramloom" check "$share/configs/quickstart.toml" >/dev/null
 "$gramloom" make "$share/data/pebbles.png" --kind quilting --size 64 --output made.png --quiet
 test -s made.png
-test -s "$temp/usr/share/doc/gramloom/docs/README.md"
+# What its pages show and link came along.
+documents=$temp/usr/share/doc/gramloom
+for page in "$documents"/README.md "$documents"/docs/*.md; do
+  grep -oE '\]\([^)#: ]+' "$page" | cut -c3- | while read -r link; do
+    test -e "$(dirname "$page")/$link" || { echo "$page: there is no $link"; exit 1; }
+  done
+done
 
 # Every public header can be included with what the package asks for.
 mkdir "$temp/headers"
