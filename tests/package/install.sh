@@ -24,7 +24,7 @@ test -s made.png
 # What its pages show and link came along.
 documents=$temp/usr/share/doc/gramloom
 for page in "$documents"/README.md "$documents"/docs/*.md; do
-  grep -oE '\]\([^)#: ]+' "$page" | cut -c3- | while read -r link; do
+  for link in $(grep -oE '\]\([^)#: ]+' "$page" | cut -c3- || true); do
     test -e "$(dirname "$page")/$link" || { echo "$page: there is no $link"; exit 1; }
   done
 done
