@@ -11,7 +11,7 @@ namespace gramloom {
 
 ExitCode run_program(int argc, char** argv) {
   CLI::App app("New textures from a small picture of one.", "gramloom");
-  app.set_version_flag("--version", fmt::format("gramloom {}", version()));
+  app.set_version_flag("--version", version_line());
   app.require_subcommand(1);
   app.footer(
       "Exit code: 0 all done; 1 a job failed or got worse; 2 bad usage or config; 130 "
@@ -40,7 +40,7 @@ ExitCode run_program(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {
-    return print(fmt::format("gramloom {}\n", version()));
+    return print(version_line() + "\n");
   } catch (const CLI::Success&) {
     // --help, of the program or of a command.
     const auto asked = app.get_subcommands();

@@ -4,7 +4,10 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
+#include "core/build_stamp.h"
 #include "core/error.h"
 
 namespace gramloom {
@@ -19,13 +22,25 @@ std::filesystem::path libraries_folder() {
 
 namespace {
 
-// Opens, one by one, the libraries named in a file (leaves_first.cmake). The dynamic linker looks a
-// name up in all that are opened at once: by themselves, most libraries need few others, but 250
-// come with a module, which would take twice as long. One that does not open by itself comes with
-// the module, or the linker says there what is wrong.
-void open_libraries(const std::filesystem::path& names) {
-  std::ifstream file(names);
-  for (std::string name; std::getline(file, name);) dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL);
+// What lies beside a module (module_list.cmake): it is read before any code of the module runs.
+struct ModuleList {
+  std::string stamp;
+  std::vector<std::string> libraries;
+};
+
+ModuleList read_list(const std::filesystem::path& path) {
+  ModuleList list;
+  std::ifstream file(path);
+  std::getline(file, list.stamp);
+  for (std::string name; std::getline(file, name);) list.libraries.push_back(name);
+  return list;
+}
+
+// One by one. The dynamic linker looks a name up in all that are opened at once: by themselves,
+// most libraries need few others, but 250 come with a module, which would take twice as long. One
+// that does not open by itself comes with the module, or the linker says there what is wrong.
+void open_libraries(const std::vector<std::string>& names) {
+  for (const std::string& name : names) dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL);
 }
 
 // Debian's package of a module (package/debian.cmake): LibTorch comes with one of its own.
@@ -40,7 +55,13 @@ const void* detail::open_module(std::string_view name) {
   if (!std::filesystem::exists(file))
     throw Error("{} is missing: install the package {}, or in a checkout run ./bootstrap build",
                 file.string(), package_of(name));
-  open_libraries(libraries_folder() / fmt::format("libgramloom_{}.txt", name));
+  const ModuleList list = read_list(libraries_folder() / fmt::format("libgramloom_{}.txt", name));
+  if (list.stamp != build_stamp())
+    throw Error(
+        "{} is of another build than the program: in a checkout run ./bootstrap build, or "
+        "install the package {} anew",
+        file.string(), package_of(name));
+  open_libraries(list.libraries);
   // Never closed: LibTorch cannot be.
   void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   const void* functions =

@@ -18,7 +18,7 @@ const void* open_module(std::string_view name);
 /// The functions of a module. `Functions` is a struct of pointers to functions with the module's
 /// `name`; libgramloom_NAME.so, beside the library of this function, defines one as
 /// `extern "C" const Functions gramloom_NAME_module`. Exceptions pass through. Throws Error when
-/// the module, or a library that it needs, cannot be opened.
+/// the module, or a library that it needs, cannot be opened, or is of another build.
 template <class Functions>
 const Functions& open_module() {
   static const auto& functions =

@@ -65,6 +65,11 @@ InferenceLesson lesson_of(const InferenceRecipe& recipe, const Pairs& pairs) {
   return lesson;
 }
 
+PairsSize size_of(const PairSplit& split, std::size_t numbers, Size size, int channels) {
+  return {static_cast<int>(numbers), size, channels, split.learnt.size(), split.chosen_by.size(),
+          split.tested.size()};
+}
+
 // Pictures in rows, all from one range of values; of more channels than a PNG has, the first.
 void write_sheet(const fs::path& file, const std::vector<std::vector<Image>>& rows,
                  const Metadata& metadata) {
@@ -149,7 +154,10 @@ void learn(const LessonRun& run, const InferenceRecipe& recipe) {
   const Pairs pairs{select_pairs(all, split.learnt), select_pairs(all, split.chosen_by),
                     select_pairs(all, split.tested)};
   const InferenceLesson lesson = lesson_of(recipe, pairs);
-  refuse_without_memory(estimate_training(lesson), "a smaller batch needs less");
+  const Image& picture = all.pictures.front();
+  refuse_without_memory(estimate_training(recipe, size_of(split, all.numbers.size(), picture.size(),
+                                                          picture.channels)),
+                        "a smaller batch needs less");
   const Metadata metadata{{"gramloom:settings", to_text(settings, -1, true)}};
   const Image mean = mean_picture(pairs.learnt.pictures);
   const InferenceJudge judge = [&](const InferenceState& state) {
@@ -208,6 +216,27 @@ void check_frame_files(const ModelEntry& model, const JobFiles& files,
   const auto& task = std::get<InferenceTask>(model.recipe);
   if (task.pose.empty()) return;
   for (const fs::path& file : frames_of(task, files)) check_replaced(file, inputs, inferred_mark);
+}
+
+Cost estimate_inference_lesson(const ModelEntry& model) {
+  const auto& task = std::get<InferenceTask>(model.recipe);
+  const PoseTable table = planned_poses(task);
+  check_pairs(table, task.simulation.empty() ? task.pairs : task.simulation);
+  const PairSplit split = split_pairs(table.poses.size(), task.held_out, task.seed);
+  PairsSize pairs;
+  Work work;
+  if (task.simulation.empty()) {
+    const Image first = read_image(task.pairs.parent_path() / table.pictures.front()).image;
+    pairs = size_of(split, table.names.size(), first.size(), first.channels);
+  } else {
+    const Simulation simulation = read_simulation(task.simulation);
+    pairs = size_of(split, table.names.size(), simulation.sleeve.size, 1);
+    work = estimate_simulation(simulation).work;  // its memory is free before the training
+  }
+  if (!task.pose.empty()) pairs.inferred += static_cast<std::size_t>(task.frames);
+  Cost cost = estimate_training(task, pairs);
+  cost.work += work;
+  return cost;
 }
 
 void train_inference_lesson(const LessonRun& run) {

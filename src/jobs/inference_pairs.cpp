@@ -110,13 +110,18 @@ PoseTable parse_pose_table(std::string text, const fs::path& file) {
   return table;
 }
 
-InferencePairs read_pairs(const fs::path& file, FileHashes& hashes) {
-  PoseTable table = read_pose_table(file);
+void check_pairs(const PoseTable& table, const fs::path& file) {
   const std::size_t count = table.poses.size();
   if (table.pictures.empty() && count > 0)
     throw Error("{}: has no column '{}'", place_in(file, 1), picture_column);
   if (count < fewest_pairs)
     throw Error("{}: has {} pairs, needed are {} at least", file.string(), count, fewest_pairs);
+}
+
+InferencePairs read_pairs(const fs::path& file, FileHashes& hashes) {
+  PoseTable table = read_pose_table(file);
+  check_pairs(table, file);
+  const std::size_t count = table.poses.size();
   InferencePairs pairs;
   std::string all = hashes.of(file);
   for (std::size_t i = 0; i < count; ++i) {

@@ -34,11 +34,14 @@ PoseTable read_pose_table(const std::filesystem::path& table);
 /// The same of a text; `table` is what errors call it.
 PoseTable parse_pose_table(std::string text, const std::filesystem::path& table);
 
+/// Throws Error when a table has no column 'picture', or fewer than `fewest_pairs`.
+void check_pairs(const PoseTable& table, const std::filesystem::path& file);
+inline constexpr std::size_t fewest_pairs = 8;
+
 /// The pairs of a table with a column 'picture', a file each, from the table's folder on. Throws
 /// Error likewise, and for a picture that cannot be read or is of another size or number of
 /// channels than the first, and for fewer than `fewest_pairs`.
 InferencePairs read_pairs(const std::filesystem::path& table, FileHashes& hashes);
-inline constexpr std::size_t fewest_pairs = 8;
 
 /// Which pairs are trained on; by which the best state is chosen; and which only tell the error.
 struct PairSplit {

@@ -1,8 +1,11 @@
 #include "jobs/machine.h"
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <thread>
 
+#include "core/build_stamp.h"
 #include "core/threads.h"
 
 namespace gramloom {
@@ -23,6 +26,10 @@ std::string labelled_line(const std::string& path, std::string_view label) {
 }  // namespace
 
 std::string_view version() { return GRAMLOOM_VERSION; }
+
+std::string version_line() {
+  return fmt::format("gramloom {} (build {})", version(), build_stamp());
+}
 
 Named<std::string> versions() {
   Named<std::string> versions{{"gramloom", std::string(version())}};

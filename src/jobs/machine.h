@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "io/json_fields.h"
@@ -9,6 +10,8 @@ namespace gramloom {
 
 /// "0.1.0"
 std::string_view version();
+/// "gramloom 0.1.0 (build 0123456789ab)", as `gramloom --version` says it.
+std::string version_line();
 
 /// The versions of the program and of the libraries that it was built with.
 Named<std::string> versions();

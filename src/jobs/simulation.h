@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/cost.h"
 #include "core/progress.h"
 #include "surface/cloth.h"
 
@@ -62,6 +63,9 @@ struct PosedSleeve {
 /// All poses of a simulation, in their order: the same bytes for any threads and machine. Throws
 /// ConfigError where they do not fit into memory, Interrupted when `control` says stop.
 std::vector<PosedSleeve> simulate(const Simulation& simulation, const Control& control);
+
+/// What simulate() is expected to need.
+Cost estimate_simulation(const Simulation& simulation);
 
 /// Simulates and leaves in the folder a picture of each pose, pose_0001.exr …, and poses.csv, whose
 /// rows are "picture,bend,twist,swing"; returns the latter. Pictures hold floats, so that radii

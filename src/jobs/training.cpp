@@ -111,13 +111,11 @@ std::vector<Expectation> expected_lessons(const Config& config, const std::strin
   std::vector<Expectation> expected;
   std::optional<Speed> speed;
   for (const Lesson& lesson : lessons_of(config, only)) {
-    if (is_inference(config, lesson)) {
-      check_frames(config.models[lesson.model]);
-      expected.push_back({lesson.name, {}, {}, ""});
-      continue;
-    }
+    const ModelEntry& model = config.models[lesson.model];
+    if (is_inference(config, lesson)) check_frames(model);
     try {
-      const Cost cost = estimate_generator_lesson(config, lesson);
+      const Cost cost = is_inference(config, lesson) ? estimate_inference_lesson(model)
+                                                     : estimate_generator_lesson(config, lesson);
       if (!speed) speed = machine_speed(true);
       expected.push_back({lesson.name, cost.bytes, seconds(cost.work, *speed), ""});
     } catch (const Error& error) {

@@ -24,9 +24,8 @@ struct Lesson {
 /// inference has its own name.
 std::vector<Lesson> lessons_of(const Config& config, const std::string& only = "");
 
-/// The models that a config trains, of those that match `only`, with what each is expected to need;
-/// not of an inference, whose pairs nobody has read yet.
-/// Throws Error for an exemplar that cannot be read.
+/// The models that a config trains, of those that match `only`, with what each is expected to need.
+/// Throws ConfigError for a sequence of poses outside what would be learnt.
 std::vector<Expectation> expected_lessons(const Config& config, const std::string& only);
 
 /// How trainings went, and what became of them: of generators a method each for every exemplar it

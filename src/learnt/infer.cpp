@@ -143,4 +143,21 @@ Image infer(const InferenceModel& model, const std::vector<double>& pose) {
   return picture;
 }
 
+Cost estimate_inference(const InferenceDescription& description) {
+  constexpr double seconds_per_product = 2.5e-10, seconds_per_value = 2e-8;  // measured
+  const std::vector<Size> sizes = inference_sizes(description);
+  double products = 0, values = 0, most = 0;
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    const double pixels = 1.0 * sizes[k].width * sizes[k].height;
+    const int channels = description.hidden[k], next = channels_after(description, k);
+    products += pixels * 9 * channels * next;
+    values += pixels * next;
+    most = std::max(most, pixels * (2 * channels + next));  // with what lies around its border
+  }
+  const double start = 1.0 * sizes.front().width * sizes.front().height *
+                       description.hidden.front() * description.pose_hidden;
+  return {4 * most,
+          {.serial = (products + start) * seconds_per_product + values * seconds_per_value}};
+}
+
 }  // namespace gramloom

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/cost.h"
 #include "core/map_words.h"
 #include "core/request.h"
 #include "io/image_file.h"
@@ -147,5 +148,8 @@ void check_pose(const std::vector<PoseNumber>& numbers, const std::vector<double
 /// milliseconds, and has the same bytes on every machine. The pose has the model's number of
 /// values.
 Image infer(const InferenceModel& model, const std::vector<double>& pose);
+
+/// What that is expected to need.
+Cost estimate_inference(const InferenceDescription& description);
 
 }  // namespace gramloom

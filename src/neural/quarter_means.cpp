@@ -8,20 +8,19 @@ namespace gramloom::neural {
 
 namespace {
 
-constexpr int rows_of_a_part = 8;
-
 // Sums over side × side pixels from each one on, by channel; the picture wraps.
 Image box_sums(const Image& image, int side) {
+  constexpr int rows_at_once = 8;
   const int channels = image.channels;
   Image along(image.size(), channels), sums(image.size(), channels);
-  parallel_for(image.height, rows_of_a_part, [&](std::int64_t begin, std::int64_t end) {
+  parallel_for(image.height, rows_at_once, [&](std::int64_t begin, std::int64_t end) {
     for (int y = static_cast<int>(begin); y < end; ++y)
       for (int x = 0; x < image.width; ++x)
         for (int i = 0; i < side; ++i)
           for (int c = 0; c < channels; ++c)
             along.at(x, y)[c] += image.at((x + i) % image.width, y)[c];
   });
-  parallel_for(image.height, rows_of_a_part, [&](std::int64_t begin, std::int64_t end) {
+  parallel_for(image.height, rows_at_once, [&](std::int64_t begin, std::int64_t end) {
     for (int y = static_cast<int>(begin); y < end; ++y)
       for (int i = 0; i < side; ++i) {
         const float* from = along.at(0, (y + i) % image.height);

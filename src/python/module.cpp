@@ -12,6 +12,7 @@
 #include "metrics/scores.h"
 #include "python/arrays.h"
 #include "python/runs.h"
+#include "python/same_build.h"
 #include "python/synthesise.h"
 #include "python/watched_work.h"
 #include "signal/opencv_threads.h"
@@ -154,6 +155,8 @@ void add_progress(py::module_& module) {
 }  // namespace
 
 PYBIND11_MODULE(_gramloom, module) {
+  if (const std::string refusal = library_refusal(); !refusal.empty())
+    throw py::import_error(refusal);
   add_errors(module);
   add_progress(module);
   module.attr("version") = std::string(version());

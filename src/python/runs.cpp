@@ -1,7 +1,6 @@
 #include "python/runs.h"
 
 #include "core/error.h"
-#include "core/modules.h"
 #include "io/json_fields.h"
 #include "io/text_file.h"
 #include "jobs/model_entries.h"
@@ -9,6 +8,7 @@
 #include "jobs/plan.h"
 #include "jobs/runner.h"
 #include "jobs/training.h"
+#include "python/same_build.h"
 #include "report/page.h"
 #include "runs/job_files.h"
 #include "runs/record.h"
@@ -18,17 +18,6 @@ namespace gramloom::python {
 namespace {
 
 namespace fs = std::filesystem;
-
-// The program of the same build, or of the same installation, as this module.
-fs::path program_file() {
-  const fs::path libraries = libraries_folder();
-  const fs::path built = libraries / "gramloom";
-  const fs::path installed = libraries.parent_path().parent_path() / "bin/gramloom";
-  for (const fs::path& file : {built, installed})
-    if (fs::is_regular_file(file)) return file;
-  throw ConfigError("jobs: there is no program to do them, neither {} nor {}", built.string(),
-                    installed.string());
-}
 
 // That does the same.
 std::vector<std::string> command_line(const RunWork& work, const std::string& command) {

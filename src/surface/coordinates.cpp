@@ -1,14 +1,11 @@
 #include "surface/coordinates.h"
 
-#include <numbers>
-
 #include "core/error.h"
 
 namespace gramloom {
 
 namespace {
 
-using std::numbers::pi_v;
 // Around a pole the gradient of the angle has no bound: within this distance it stays the same.
 constexpr float least_radius = 1e-4f;
 
@@ -29,11 +26,11 @@ struct Turn {
   Vec3 gradient;
 };
 Turn turn_of(const Vec3& q) {
-  float u = std::atan2(q.y, q.x) / (2 * pi_v<float>);
+  float u = std::atan2(q.y, q.x) / (2 * pi);
   if (u < 0) u += 1;
   if (u >= 1) u = 0;  // −1e-9 + 1 is 1 in floats
   const float r2 = std::max(q.x * q.x + q.y * q.y, least_radius * least_radius);
-  return {u, Vec3{-q.y, q.x, 0} / (2 * pi_v<float> * r2)};
+  return {u, Vec3{-q.y, q.x, 0} / (2 * pi * r2)};
 }
 
 }  // namespace
@@ -79,8 +76,7 @@ Coordinates polar(const MappingFrame& frame, const Vec3& p) {
   const float distance2 = std::max(dot(q, q), least_radius * least_radius);
   const float safe = std::max(r, least_radius);
   const Vec3 gradient = Vec3{q.z * q.x, q.z * q.y, -r * safe} / (distance2 * safe);
-  return {turn.u, 1 - phi / pi_v<float>, outside(frame, turn.gradient),
-          outside(frame, gradient / -pi_v<float>)};
+  return {turn.u, 1 - phi / pi, outside(frame, turn.gradient), outside(frame, gradient / -pi)};
 }
 
 Coordinates conical(const MappingFrame& frame, float half_angle, const Vec3& p) {

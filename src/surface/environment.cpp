@@ -1,7 +1,5 @@
 #include "surface/environment.h"
 
-#include <numbers>
-
 #include "core/error.h"
 #include "core/neighbour.h"
 #include "core/threads.h"
@@ -9,8 +7,6 @@
 namespace gramloom {
 
 namespace {
-
-using std::numbers::pi_v;
 
 EnvironmentKind kind_of(const Image& p) {
   if (p.width == 2 * p.height) return EnvironmentKind::latlong;
@@ -105,12 +101,12 @@ std::array<float, 9> harmonics(const Vec3& d) {
 }  // namespace
 
 Vec2 latlong_of(const Vec3& d) {
-  return {0.5f + std::atan2(d.x, -d.z) / (2 * pi_v<float>),
-          0.5f + std::asin(std::clamp(d.y, -1.0f, 1.0f)) / pi_v<float>};
+  return {0.5f + std::atan2(d.x, -d.z) / (2 * pi),
+          0.5f + std::asin(std::clamp(d.y, -1.0f, 1.0f)) / pi};
 }
 
 Vec3 direction_of_latlong(const Vec2& at) {
-  const float longitude = 2 * pi_v<float> * (at.u - 0.5f), latitude = pi_v<float> * (at.v - 0.5f);
+  const float longitude = 2 * pi * (at.u - 0.5f), latitude = pi * (at.v - 0.5f);
   const float c = std::cos(latitude);
   return {c * std::sin(longitude), std::sin(latitude), -c * std::cos(longitude)};
 }
@@ -199,7 +195,7 @@ Irradiance irradiance_of(const Image& latlong) {
   double solid_angle = 0;
   for (int y = 0; y < latlong.height; ++y) {
     const float v = 1 - (static_cast<float>(y) + 0.5f) / static_cast<float>(latlong.height);
-    const double weight = std::cos(static_cast<double>(pi_v<float> * (v - 0.5f)));
+    const double weight = std::cos(static_cast<double>(pi * (v - 0.5f)));
     for (int x = 0; x < latlong.width; ++x) {
       const float u = (static_cast<float>(x) + 0.5f) / static_cast<float>(latlong.width);
       const auto h = harmonics(direction_of_latlong({u, v}));
@@ -217,10 +213,7 @@ Irradiance irradiance_of(const Image& latlong) {
   constexpr double cosine[3]{1, 2.0 / 3, 0.25};
   Irradiance result;
   for (std::size_t i = 0; i < 9; ++i) {
-    const double scale = 4 * std::numbers::pi_v<float> / solid_angle *
-                         cosine[i == 0  ? 0
-                                : i < 4 ? 1
-                                        : 2];
+    const double scale = 4 * pi / solid_angle * cosine[i == 0 ? 0 : i < 4 ? 1 : 2];
     result.coefficients[i] = {static_cast<float>(sums[i][0] * scale),
                               static_cast<float>(sums[i][1] * scale),
                               static_cast<float>(sums[i][2] * scale)};

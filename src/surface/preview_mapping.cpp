@@ -1,7 +1,6 @@
 #include "surface/preview_mapping.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include "core/error.h"
 
@@ -90,7 +89,7 @@ MappingOf make_mapping(const PreviewParams& p, const Mesh& mesh) {
   mapping.frame = make_frame(p);
   mapping.linear = linear_map(mapping.frame.origin, vector_of("u_axis", p.u_axis),
                               vector_of("v_axis", p.v_axis));
-  mapping.half_angle = static_cast<float>(p.cone_angle) * std::numbers::pi_v<float> / 180;
+  mapping.half_angle = static_cast<float>(p.cone_angle) * pi / 180;
   const auto named = named_shape(p.shape);
   switch (p.mapping) {
     case Mapping::polar:
@@ -98,7 +97,7 @@ MappingOf make_mapping(const PreviewParams& p, const Mesh& mesh) {
       break;
     case Mapping::cylindrical:
     case Mapping::conical:
-      mapping.around = std::numbers::pi_v<float>;
+      mapping.around = pi;
       break;
     case Mapping::own:
       if (mesh.coordinates.empty())

@@ -1,14 +1,10 @@
 #include "surface/preview_samples.h"
 
-#include <numbers>
-
 #include "core/random.h"
 
 namespace gramloom {
 
 namespace {
-
-using std::numbers::pi_v;
 
 float fraction(float v) { return v - std::floor(v); }
 
@@ -25,7 +21,7 @@ Vec2 even_point(float i) { return {fraction(i * 0.7548777f), fraction(i * 0.5698
 
 // A point of a disc of radius 1 for one of a square, areas in proportion.
 Vec2 on_disc(const Vec2& square) {
-  const float r = std::sqrt(square.u), angle = 2 * pi_v<float> * square.v;
+  const float r = std::sqrt(square.u), angle = 2 * pi * square.v;
   return {r * std::cos(angle), r * std::sin(angle)};
 }
 

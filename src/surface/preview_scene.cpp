@@ -1,7 +1,6 @@
 #include "surface/preview_scene.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include "core/error.h"
 #include "surface/displacement.h"
@@ -117,7 +116,7 @@ void light_up(PreviewScene& scene, const Image& environment) {
   scene.light = direction_of(p.light[0], p.light[1]);
   scene.light_colour =
       vector_of("light_colour", p.light_colour) * static_cast<float>(p.light_strength);
-  scene.light_spread = std::tan(static_cast<float>(p.light_size) * std::numbers::pi_v<float> / 360);
+  scene.light_spread = std::tan(static_cast<float>(p.light_size) * pi / 360);
   scene.environment_strength = static_cast<float>(p.environment_strength);
   const Image around =
       environment.empty()

@@ -1,12 +1,9 @@
 #include "surface/shading.h"
 
-#include <numbers>
-
 namespace gramloom {
 
 namespace {
 
-using std::numbers::pi_v;
 constexpr float dielectric = 0.04f;  // what a non-metal mirrors of light straight from above
 
 Vec3 mirrored_part(const Material& m) {
@@ -42,15 +39,15 @@ Vec3 metal(const Material& m, const Vec3& n, const Vec3& l, const Vec3& v) {
   const float roughness = std::max(m.roughness, least_roughness);
   const float a2 = roughness * roughness * roughness * roughness;
   const float d = nh * nh * (a2 - 1) + 1;
-  const float distribution = a2 / (pi_v<float> * d * d);
+  const float distribution = a2 / (pi * d * d);
   const float masking =
       nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2);
   const Vec3 f = schlick(mirrored_part(m), vh);
   const Vec3 specular = f * (distribution * 0.5f / std::max(masking, 1e-6f));
   // What is mirrored on the way in or out is not left for the diffuse part.
   const Vec3 left = Vec3{1, 1, 1} - schlick(mirrored_part(m), std::min(nl, nv));
-  const Vec3 diffuse = m.colour * left * ((1 - m.metalness) / pi_v<float>);
-  return (diffuse + specular) * (nl * pi_v<float>);
+  const Vec3 diffuse = m.colour * left * ((1 - m.metalness) / pi);
+  return (diffuse + specular) * (nl * pi);
 }
 
 }  // namespace

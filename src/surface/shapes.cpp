@@ -1,14 +1,10 @@
 #include "surface/shapes.h"
 
-#include <numbers>
-
 #include "surface/arm.h"
 
 namespace gramloom {
 
 namespace {
-
-using std::numbers::pi_v;
 
 // How many edges of at most `longest` a length needs.
 int pieces(float length, float longest, int least) {
@@ -18,20 +14,16 @@ int pieces(float length, float longest, int least) {
 // The direction at θ = 2πu around y, from the seam behind; the same point at u = 0 and 1.
 Vec3 around(float u) {
   if (u >= 1) u = 0;
-  return {-std::sin(2 * pi_v<float> * u), 0, -std::cos(2 * pi_v<float> * u)};
+  return {-std::sin(2 * pi * u), 0, -std::cos(2 * pi * u)};
 }
 
 Mesh sphere(float longest) {
   Mesh mesh;
-  const int rows = pieces(pi_v<float>, longest, 96);
+  const int rows = pieces(pi, longest, 96);
   add_grid(mesh, 2 * rows, rows, [](float u, float v) {
     // At the poles exactly, so that all that meet there are the same point.
-    const float r = v <= 0 || v >= 1 ? 0 : std::sin(pi_v<float> * v);
-    const Vec3 p = around(u) * r + Vec3{0,
-                                        v >= 1   ? 1
-                                        : v <= 0 ? -1
-                                                 : -std::cos(pi_v<float> * v),
-                                        0};
+    const float r = v <= 0 || v >= 1 ? 0 : std::sin(pi * v);
+    const Vec3 p = around(u) * r + Vec3{0, v >= 1 ? 1 : v <= 0 ? -1 : -std::cos(pi * v), 0};
     return Vertex{p, normalised(p), {u, v}};
   });
   return mesh;
@@ -64,7 +56,7 @@ Mesh cube(float longest) {
 Mesh cylinder(float longest) {
   constexpr float radius = 0.7f;
   Mesh mesh;
-  const int columns = pieces(2 * pi_v<float> * radius, longest, 192);
+  const int columns = pieces(2 * pi * radius, longest, 192);
   add_grid(mesh, columns, pieces(2 * radius, longest, 1), [](float u, float v) {
     const Vec3 out = around(u);
     return Vertex{(out + Vec3{0, 2 * v - 1, 0}) * radius, out, {u, v}};
@@ -87,8 +79,7 @@ Mesh tube(float longest, double bend) {
   const ArmAxis axis(bend);
   Mesh mesh;
   add_grid(
-      mesh, pieces(2 * pi_v<float> * radius, longest, 192), pieces(2, longest, 96),
-      [&](float u, float v) {
+      mesh, pieces(2 * pi * radius, longest, 192), pieces(2, longest, 96), [&](float u, float v) {
         const double along = (0.5 - static_cast<double>(v)) * arm_length;
         const double around = u >= 1 ? 0 : static_cast<double>(u);
         const auto at = [&](double from) {
@@ -134,9 +125,9 @@ float widths_around(Shape shape) {
     case Shape::sphere:
       return 2;
     case Shape::cylinder:
-      return pi_v<float>;
+      return pi;
     case Shape::tube:
-      return 2 * pi_v<float> / static_cast<float>(arm_length);
+      return 2 * pi / static_cast<float>(arm_length);
     default:
       return 1;
   }

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace gramloom {
+
+inline constexpr float pi = std::numbers::pi_v<float>;
 
 /// A point or direction in space, or a colour: x, y, z or red, green, blue. Objects lie within
 /// about [−1, 1]³; x points right, y up and z to the viewer.

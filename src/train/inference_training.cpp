@@ -53,36 +53,87 @@ Tile wrapping_axes(const std::vector<Image>& pictures) {
   return wrapping(wraps(along_x), wraps(along_y));
 }
 
+namespace {
+
+void check_recipe(const InferenceRecipe& recipe) {
+  check_fields(recipe);
+  if (recipe.hidden.empty() || recipe.hidden.size() > 10)
+    throw ConfigError("hidden has {} numbers: allowed are 1 to 10", recipe.hidden.size());
+}
+
+// Of the network, all that its size hangs on but the numbers of a pose.
+void describe(const InferenceRecipe& recipe, Size size, int channels,
+              InferenceDescription& description) {
+  description.size = size;
+  description.channels = channels;
+  description.pose_hidden = recipe.pose_hidden;
+  description.hidden = recipe.hidden;
+}
+
+double count_of_tensors(const InferenceDescription& description) {
+  double count = 0;
+  for (const auto& [name, shape] : tensor_shapes(description)) {
+    double values = 1;
+    for (const std::int64_t length : shape) values *= static_cast<double>(length);
+    count += values;
+  }
+  return count;
+}
+
+// Measured; seconds of one thread.
+constexpr double bytes_of_libraries = 2.65e8;
+constexpr double bytes_per_value = 20;      // of all pictures: as they are, learnt, and centred
+constexpr double bytes_per_map_value = 19;  // of a batch: what the gradient needs of each layer
+constexpr double bytes_per_weight = 19;     // with its slope and Adam's means
+constexpr double bytes_per_weight_written = 32;  // in a checkpoint, when maps are gone
+constexpr double seconds_per_step = 0.004;
+constexpr double seconds_per_map_value = 2e-8;
+constexpr double seconds_per_weight = 1e-8;
+constexpr double seconds_per_blended_value = 1e-6;  // of 85 blends, for each that they choose by
+
+}  // namespace
+
 InferenceModel train_inference(const InferenceLesson& lesson, const Control& control,
                                const InferenceJudge& judge) {
-  check_fields(lesson.recipe);
-  if (lesson.recipe.hidden.empty() || lesson.recipe.hidden.size() > 10)
-    throw ConfigError("hidden has {} numbers: allowed are 1 to 10", lesson.recipe.hidden.size());
+  check_recipe(lesson.recipe);
   InferenceLesson whole = lesson;
   InferenceDescription& description = whole.description;
-  description.size = lesson.pictures.front().size();
-  description.channels = lesson.pictures.front().channels;
+  const Image& first = lesson.pictures.front();
+  describe(lesson.recipe, first.size(), first.channels, description);
   description.wraps = wrapping_axes(lesson.pictures);
-  description.pose_hidden = lesson.recipe.pose_hidden;
-  description.hidden = lesson.recipe.hidden;
   description.recipe = to_json_value(lesson.recipe);
   return open_module<TrainModule>().train_inference(whole, control, judge);
 }
 
-Cost estimate_training(const InferenceLesson& lesson) {
-  const Image& picture = lesson.pictures.front();
-  const auto& hidden = lesson.recipe.hidden;
-  double pixels = 1.0 * picture.width * picture.height, products = 0, values = 0;
-  for (std::size_t k = hidden.size(); k-- > 0; pixels /= 4) {
-    const int next = hidden[std::min(k + 1, hidden.size() - 1)];
-    products += pixels * 9 * hidden[k] * next;
-    values += pixels * 6 * next;
+Cost estimate_training(const InferenceRecipe& recipe, const PairsSize& pairs) {
+  check_recipe(recipe);
+  InferenceDescription description;
+  describe(recipe, pairs.size, pairs.channels, description);
+  description.pose.resize(static_cast<std::size_t>(pairs.numbers));
+  const std::vector<Size> sizes = inference_sizes(description);
+  double products = 0, maps = 0;  // of one picture
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    const int next = channels_after(description, k);
+    const double pixels = 1.0 * sizes[k].width * sizes[k].height;
+    products += pixels * 9 * recipe.hidden[k] * next;
+    maps += pixels * (recipe.hidden[k] + next);
   }
-  const double data = static_cast<double>(lesson.pictures.size()) * 8 * picture.width *
-                      picture.height * picture.channels;
-  return {3e8 + data + 4 * values * lesson.recipe.batch,
-          {.serial = 1 + 0.005 * lesson.recipe.steps,
-           .operations = 20.0 * lesson.recipe.steps * lesson.recipe.batch * products}};
+  const double picture = 1.0 * pairs.size.width * pairs.size.height * pairs.channels;
+  const double count = static_cast<double>(pairs.learnt + pairs.chosen_by);
+  const double weights = count_of_tensors(description);
+  const double looks = std::ceil(1.0 * recipe.steps / recipe.sample_every);
+  const double inferred =
+      looks * static_cast<double>(pairs.chosen_by) + static_cast<double>(pairs.inferred);
+  const Work step{
+      .serial = seconds_per_step,
+      .shared = maps * recipe.batch * seconds_per_map_value + weights * seconds_per_weight,
+      .operations = 6 * recipe.batch * products};
+  const double blends = static_cast<double>(pairs.chosen_by) * picture * seconds_per_blended_value;
+  return {bytes_of_libraries + count * picture * bytes_per_value +
+              std::max(maps * recipe.batch * bytes_per_map_value + weights * bytes_per_weight,
+                       weights * bytes_per_weight_written),
+          Work{.serial = 1 + blends} + recipe.steps * step +
+              inferred * estimate_inference(description).work};
 }
 
 }  // namespace gramloom

@@ -39,7 +39,18 @@ Tile wrapping_axes(const std::vector<Image>& pictures);
 InferenceModel train_inference(const InferenceLesson& lesson, const Control& control,
                                const InferenceJudge& judge);
 
-/// What that is expected to need.
-Cost estimate_training(const InferenceLesson& lesson);
+/// How many numbers a pose has, pictures, and pairs: what a training costs by.
+struct PairsSize {
+  int numbers = 1;
+  Size size;
+  int channels = 1;
+  std::size_t learnt = 0;
+  std::size_t chosen_by = 0;  // inferred at each look of the judge
+  std::size_t inferred = 0;   // afterwards: what is tested, and frames of a sequence
+};
+
+/// What a training is expected to need, with all that is inferred. Throws ConfigError for a recipe
+/// out of range.
+Cost estimate_training(const InferenceRecipe& recipe, const PairsSize& pairs);
 
 }  // namespace gramloom

@@ -19,7 +19,7 @@ TEST_F(CommandLine, HelpAndVersion) {
   }
   const Outcome version = run({"--version"});
   EXPECT_EQ(version.exit_code, 0);
-  EXPECT_TRUE(version.output.starts_with("gramloom ")) << version.output;
+  EXPECT_THAT(version.output, testing::MatchesRegex("gramloom [0-9.]+ \\(build [0-9a-f]{12}\\)\n"));
 }
 
 TEST_F(CommandLine, BadUsageIsOneLineAndExitCode2) {

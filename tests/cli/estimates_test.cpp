@@ -20,6 +20,11 @@ struct EstimateCase {
   std::string params;
 };
 
+void expect_about(double found, double estimated) {
+  EXPECT_LT(found, most_wrong * estimated) << found / 1e6 << " MB, estimated " << estimated / 1e6;
+  EXPECT_GT(found, estimated / most_wrong) << found / 1e6 << " MB, estimated " << estimated / 1e6;
+}
+
 class Estimates : public Workspace, public testing::WithParamInterface<EstimateCase> {};
 
 TEST_P(Estimates, OfMemoryAreWhatAProcessTakes) {
@@ -42,11 +47,46 @@ TEST_P(Estimates, OfMemoryAreWhatAProcessTakes) {
   const Json checked = Json::parse(run({"check", "m.toml", "--json"}).output);
   const Outcome made = run({"run", "m.toml"});
   ASSERT_EQ(made.exit_code, 0) << made.errors;
-  const double estimated = checked["jobs"][0]["memory"];
-  EXPECT_LT(made.peak_memory, most_wrong * estimated)
-      << made.peak_memory / 1e6 << " MB, estimated " << estimated / 1e6;
-  EXPECT_GT(made.peak_memory, estimated / most_wrong)
-      << made.peak_memory / 1e6 << " MB, estimated " << estimated / 1e6;
+  expect_about(made.peak_memory, checked["jobs"][0]["memory"]);
+}
+
+class InferenceEstimates : public Workspace {};
+
+TEST_F(InferenceEstimates, OfMemoryAreWhatATrainingTakes) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer has memory of its own";
+#endif
+  std::string table = "picture,bend\n";
+  Random random(1);
+  for (int i = 0; i < 16; ++i) {
+    Image picture(96, 80, 3);
+    for (float& value : picture.pixels) value = random.uniform();
+    write_image(folder_ / fmt::format("p{}.png", i), picture, {});
+    table += fmt::format("p{}.png,{}\n", i, i);
+  }
+  write_text(folder_ / "pairs.csv", table);
+  const auto compare = [&](const std::string& keys) {
+    write_text(folder_ / "i.toml",
+               "[[model]]\nname = 'm'\nkind = 'inference'\npairs = 'pairs.csv'\n" + keys);
+    const Json checked = Json::parse(run({"check", "i.toml", "--json"}).output);
+    ASSERT_EQ(checked["models"].size(), 1u);
+    EXPECT_GT(checked["models"][0]["seconds"], 0);
+    EXPECT_EQ(checked["models"][0]["problem"], "");
+    const Outcome trained = run({"train", "i.toml", "--output", "o", "--quiet"});
+    ASSERT_EQ(trained.exit_code, 0) << trained.errors;
+    expect_about(trained.peak_memory, checked["models"][0]["memory"]);
+  };
+  compare("steps = 2\nbatch = 64\n");                    // maps of the batch
+  compare("steps = 1\nbatch = 4\nhidden = [64, 16]\n");  // weights, when they are written
+  compare("steps = 1\nbatch = 4\npose = [1]\nto = [9]\nframes = 3\n");
+}
+
+TEST_F(InferenceEstimates, SayWhatKeepsATrainingFromBeginning) {
+  write_text(folder_ / "i.toml", "[[model]]\nname = 'm'\nkind = 'inference'\npairs = 'few.csv'\n");
+  write_text(folder_ / "few.csv", "picture,bend\ne.png,1\ne.png,2\n");
+  const Outcome checked = run({"check", "i.toml"});
+  EXPECT_EQ(checked.exit_code, 0) << checked.errors;
+  EXPECT_THAT(checked.output, testing::ContainsRegex("cannot be trained: .*few.csv: has 2 pairs"));
 }
 
 // What makes a method quick without changing what it keeps in memory.

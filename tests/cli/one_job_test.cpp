@@ -1,5 +1,7 @@
 // A texture that several processes make together.
+#include <arpa/inet.h>
 #include <signal.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -36,36 +38,47 @@ class OneJob : public Workspace {
         "--meet", meeting, "--threads", "1"};
   }
 
+  // Two processes that meet there make the texture that one makes.
+  void expect_that_of_one_process(const std::string& meeting) const {
+    ASSERT_EQ(run({"run", "giant.toml", "--output", "one"}).exit_code, 0);
+    Process second(folder_, words("giant.toml", 2, 2, "two", meeting));
+    const Outcome first = run(words("giant.toml", 1, 2, "two", meeting));
+    const Outcome other = second.wait();
+    ASSERT_EQ(first.exit_code, 0) << first.errors << other.errors;
+    EXPECT_EQ(other.exit_code, 0) << other.errors;
+    EXPECT_EQ(other.errors, "");
+    const Image alone = read_image(folder_ / "one" / picture_).image,
+                shared = read_image(folder_ / "two" / picture_).image;
+    ASSERT_EQ(alone.size(), shared.size());
+    for (std::size_t i = 0; i < alone.pixels.size(); ++i)
+      ASSERT_NEAR(alone.pixels[i], shared.pixels[i], 1.01 / 255) << i;  // as rounding falls
+    EXPECT_EQ(read_image(folder_ / "one" / picture_).metadata,
+              read_image(folder_ / "two" / picture_).metadata);
+    EXPECT_EQ(record("e/g/seed1", "two")->status, Status::done);
+    EXPECT_TRUE(fs::exists(folder_ / "two/index.html"));
+  }
+
   const std::string picture_ = "e/g/seed1.png";
 };
 
-TEST_F(OneJob, ItsTextureIsThatOfOneProcess) {
-  ASSERT_EQ(run({"run", "giant.toml", "--output", "one"}).exit_code, 0);
-  Process second(folder_, words("giant.toml", 2, 2, "two"));
-  const Outcome first = run(words("giant.toml", 1, 2, "two"));
-  const Outcome other = second.wait();
-  ASSERT_EQ(first.exit_code, 0) << first.errors << other.errors;
-  EXPECT_EQ(other.exit_code, 0) << other.errors;
-  EXPECT_EQ(other.errors, "");
-  const Image alone = read_image(folder_ / "one" / picture_).image,
-              shared = read_image(folder_ / "two" / picture_).image;
-  ASSERT_EQ(alone.size(), shared.size());
-  for (std::size_t i = 0; i < alone.pixels.size(); ++i)
-    ASSERT_NEAR(alone.pixels[i], shared.pixels[i], 1.01 / 255) << i;  // as rounding falls
-  EXPECT_EQ(read_image(folder_ / "one" / picture_).metadata,
-            read_image(folder_ / "two" / picture_).metadata);
-  EXPECT_EQ(record("e/g/seed1", "two")->status, Status::done);
-  EXPECT_TRUE(fs::exists(folder_ / "two/index.html"));
+// A port that nobody listens at: the system names one, and gives it to the next who asks for it.
+int free_port() {
+  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t length = sizeof address;
+  auto* const plain = reinterpret_cast<sockaddr*>(&address);
+  EXPECT_EQ(bind(socket, plain, length), 0);
+  EXPECT_EQ(getsockname(socket, plain, &length), 0);
+  close(socket);
+  return ntohs(address.sin_port);
 }
 
+TEST_F(OneJob, ItsTextureIsThatOfOneProcess) { expect_that_of_one_process("meeting"); }
+
 TEST_F(OneJob, TheyMeetAtAnAddress) {
-  const std::string meeting = fmt::format("127.0.0.1:{}", 20000 + getpid() % 12000);
-  Process second(folder_, words("giant.toml", 2, 2, "two", meeting));
-  const Outcome first = run(words("giant.toml", 1, 2, "two", meeting));
-  const Outcome other = second.wait();
-  EXPECT_EQ(first.exit_code, 0) << first.errors << other.errors;
-  EXPECT_EQ(other.exit_code, 0) << other.errors;
-  EXPECT_EQ(record("e/g/seed1", "two")->status, Status::done);
+  expect_that_of_one_process(fmt::format("127.0.0.1:{}", free_port()));
 }
 
 TEST_F(OneJob, TheOthersEndWhenOneDies) {

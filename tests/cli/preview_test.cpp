@@ -111,6 +111,46 @@ TEST_F(PreviewCommand, ProceduralTexturesByName) {
   EXPECT_THAT(unknown.errors, HasSubstr("did you mean 'marble'?"));
 }
 
+// The most that two pictures differ by in a value, and in the mean of a block of 8×8 pixels.
+std::pair<float, float> most_different(const Image& a, const Image& b) {
+  EXPECT_EQ(a.size(), b.size());
+  float most = 0, of_blocks = 0;
+  for (int top = 0; top < a.height; top += 8)
+    for (int left = 0; left < a.width; left += 8)
+      for (int c = 0; c < a.channels; ++c) {
+        float sum = 0;
+        for (int y = top; y < top + 8; ++y)
+          for (int x = left; x < left + 8; ++x) {
+            const float difference = a.at(x, y)[c] - b.at(x, y)[c];
+            most = std::max(most, std::abs(difference));
+            sum += difference / 64;
+          }
+        of_blocks = std::max(of_blocks, std::abs(sum));
+      }
+  return {most, of_blocks};
+}
+
+// A procedural texture is made as large as the preview needs it: that is its picture of that size,
+// and a larger one looks the same but for its finest details: bevels and mortar are a pixel wide.
+TEST_F(PreviewCommand, AProceduralTextureIsThatOfItsPicture) {
+  const auto preview_of = [&](const std::string& what) {
+    EXPECT_EQ(
+        run({"preview", what, "--size", "64,48", "--samples", "4", "--output", "x.png"}).exit_code,
+        0);
+    return made();
+  };
+  for (const std::string name : {"brick", "marble"}) {
+    const Image own = preview_of(name);
+    for (const int side : {128, 512}) {
+      const std::string file = fmt::format("{}_of_{}.png", name, side);
+      ASSERT_EQ(run({"make", name, "--size", std::to_string(side), "--output", file}).exit_code, 0);
+      const auto [most, of_blocks] = most_different(own, preview_of(file));
+      EXPECT_LE(most, side == 128 ? 2.01f / 255 : 1.0f) << name << ": the same but for 8 bits";
+      EXPECT_LE(of_blocks, 10.0f / 255) << name << " of " << side;
+    }
+  }
+}
+
 TEST_F(PreviewCommand, AMeshOfAFile) {
   write_text(folder_ / "m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
   const Outcome bare = preview({"wall.png", "--shape", "m.obj", "--output", "x.png"});

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "core/threads.h"
 #include "jobs/memory.h"
 #include "neural/synthesis.h"
 
@@ -32,14 +33,18 @@ double bytes_of(const NeuralParams& params, const Image& exemplar, const Target&
   return bytes;
 }
 
-// Pictures as small as they may be: what is counted is to be most of what is found, and "a few rows"
-// need a picture that is too large to be looked at whole (neural/network/work.h).
+// Pictures as small as they may be: what is counted is to be most of what is found, and "a few
+// rows" need a picture that is too large to be looked at whole (neural/network/work.h).
 struct MemoryCase {
   const char* name;
   Size exemplar, target;
   int channels;
+  double most;  // of the estimate, in what is found: measured, and a fifth of room
   void (*change)(NeuralParams&);
 };
+
+// A thread: an estimate leaves room for oneDNN's packed matrices, which not every machine makes.
+constexpr double packed_bytes = 8e6;
 
 NeuralParams small_network() {
   NeuralParams params = with_preset(Preset::gatys);
@@ -50,45 +55,52 @@ NeuralParams small_network() {
 
 class NeuralMemory : public testing::TestWithParam<MemoryCase> {};
 
-TEST_P(NeuralMemory, IsAtMostTheEstimate) {
-  [[maybe_unused]] const auto& [name, exemplar, target, channels, change] = GetParam();
+TEST_P(NeuralMemory, IsAboutTheEstimateAndNotMore) {
+  [[maybe_unused]] const auto& [name, exemplar, target, channels, most, change] = GetParam();
   NeuralParams params;
   params.iterations = {2, 1};
   change(params);
-  if (params.layout != Layout::noise) params.flow_steps = {1};          // all take as much
+  if (params.layout != Layout::noise) params.flow_steps = {1};               // all take as much
   bytes_of(params, fine_grain({64, 64}, channels), {{64, 64}, Tile::both});  // the libraries start
   const double estimated = estimate(params, {{{exemplar, channels}}, target, Tile::both}).bytes;
   const double found = bytes_of(params, fine_grain(exemplar, channels), {target, Tile::both});
   RecordProperty("found", fmt::format("{:.1f}", found / 1e6));
   RecordProperty("estimated", fmt::format("{:.1f}", estimated / 1e6));
   EXPECT_LE(found, estimated);
+  EXPECT_LE(estimated, most * found + packed_bytes * thread_count());
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Cases, NeuralMemory,
     testing::Values(
-        MemoryCase{"grey", {160, 160}, {500, 400}, 1, [](NeuralParams&) {}},
-        MemoryCase{"colour", {160, 160}, {500, 400}, 3, [](NeuralParams&) {}},
-        MemoryCase{"stack", {160, 160}, {500, 400}, 5, [](NeuralParams&) {}},
-        MemoryCase{"large_exemplar", {900, 700}, {120, 120}, 3, [](NeuralParams&) {}},
+        MemoryCase{"grey", {160, 160}, {500, 400}, 1, 1.7, [](NeuralParams&) {}},
+        MemoryCase{"colour", {160, 160}, {500, 400}, 3, 1.9, [](NeuralParams&) {}},
+        MemoryCase{"stack", {160, 160}, {500, 400}, 5, 1.9, [](NeuralParams&) {}},
+        MemoryCase{"large_exemplar", {900, 700}, {120, 120}, 3, 1.3, [](NeuralParams&) {}},
         MemoryCase{"lbfgs",
                    {160, 160},
                    {500, 400},
                    3,
-                   [](NeuralParams& p) { p.optimizer = {Optimizer::lbfgs}; }},
+                   1.7,
+                   [](NeuralParams& p) {
+                     p.optimizer = {Optimizer::lbfgs};
+                     p.history = 1;  // more than so few steps leave would be estimated
+                   }},
         MemoryCase{"other_terms",
                    {160, 160},
                    {500, 400},
                    3,
+                   1.9,
                    [](NeuralParams& p) {
                      p.spectrum_weight = p.autocorrelation_weight = p.variation_weight = 1;
                    }},
         MemoryCase{
-            "gatys", {160, 160}, {300, 240}, 3, [](NeuralParams& p) { p = small_network(); }},
+            "gatys", {160, 160}, {300, 240}, 3, 1.6, [](NeuralParams& p) { p = small_network(); }},
         MemoryCase{"shifts",
                    {160, 160},
                    {300, 240},
                    3,
+                   2.2,
                    [](NeuralParams& p) {
                      p = small_network();
                      p.shifts = {1, 2, 4};
@@ -97,6 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
                    {160, 160},
                    {640, 512},
                    3,
+                   1.7,
                    [](NeuralParams& p) {
                      p = small_network();
                      p.optimizer = {Optimizer::adam};
@@ -105,6 +118,7 @@ INSTANTIATE_TEST_SUITE_P(
                    {160, 160},
                    {640, 512},
                    3,
+                   1.6,
                    [](NeuralParams& p) {
                      p = small_network();
                      p.gram_weight = 0;

@@ -1,6 +1,4 @@
 // A trained generator at work in a page, in a real browser: skipped where there is no Chromium.
-#include <gmock/gmock.h>
-
 #include <cstdlib>
 
 #include "cli/process.h"
@@ -12,10 +10,7 @@
 namespace gramloom {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 const std::string config =
     "seeds = [1, 2]\nsize = [45, 38]\nscores = false\n"

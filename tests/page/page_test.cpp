@@ -1,6 +1,4 @@
 // The page of a real run in a real browser: skipped where there is no Chromium.
-#include <gmock/gmock.h>
-
 #include "cli/process.h"
 #include "core/random.h"
 #include "io/image_file.h"
@@ -10,10 +8,7 @@
 namespace gramloom {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 // Names that trip over quoting, addresses, HTML and JSON.
 const std::string odd_name = "it's 100% #1 & ünï 砂";

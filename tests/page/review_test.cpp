@@ -1,7 +1,5 @@
 // Looking through a run in a real browser: what changed, what is picked, keys, sequences, and many
 // pictures. Skipped where there is no Chromium.
-#include <gmock/gmock.h>
-
 #include <chrono>
 
 #include "cli/process.h"
@@ -15,10 +13,7 @@
 namespace gramloom {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::Not;
 
 void invert(const fs::path& picture) {

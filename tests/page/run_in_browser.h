@@ -1,6 +1,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -15,6 +16,11 @@
 
 namespace gramloom {
 
+// Words of all tests of pages.
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
 inline constexpr Size desk{1280, 900};
 // Laid out as a desk: for what is drawn by software, where each pixel takes its time.
 inline constexpr Size small_desk{880, 600};
@@ -28,15 +34,15 @@ class RunInBrowser : public testing::Test {
   // False where there is no Chromium.
   static bool make_folder(const std::string& name) {
     if (!Chromium::find()) return false;
-    folder_ = std::filesystem::temp_directory_path() / fmt::format("{}_{}", name, getpid());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
+    folder_ = fs::temp_directory_path() / fmt::format("{}_{}", name, getpid());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
     return true;
   }
   static void start_browser() { browser_ = std::make_unique<Chromium>(*Chromium::find()); }
   static void TearDownTestSuite() {
     browser_.reset();
-    if (!folder_.empty()) std::filesystem::remove_all(folder_);
+    if (!folder_.empty()) fs::remove_all(folder_);
     folder_.clear();
   }
   void SetUp() override {
@@ -66,10 +72,10 @@ class RunInBrowser : public testing::Test {
   // A picture to look at, where the environment says where to.
   static void keep(const std::string& name) {
     if (const char* where = std::getenv("GRAMLOOM_SCREENSHOTS"))
-      browser_->screenshot(std::filesystem::path(where) / (name + ".png"));
+      browser_->screenshot(fs::path(where) / (name + ".png"));
   }
 
-  inline static std::filesystem::path folder_;
+  inline static fs::path folder_;
   inline static std::unique_ptr<Chromium> browser_;
 };
 

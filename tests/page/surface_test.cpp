@@ -1,6 +1,4 @@
 // The lit ball and wall of a page in a real browser: skipped where there is no Chromium.
-#include <gmock/gmock.h>
-
 #include <cmath>
 
 #include "cli/process.h"
@@ -11,10 +9,7 @@
 namespace gramloom {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 // Humps in a grid, darker in between, with their height and maps told by it.
 void write_humps(const fs::path& folder) {

@@ -4,14 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <numbers>
 
 #include "core/error.h"
 
 namespace gramloom {
 namespace {
-
-constexpr float pi = std::numbers::pi_v<float>;
 
 // The lectures' frame: the pole up z, the seam along x, lengths as they are.
 const MappingFrame plain = mapping_frame({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 1);

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "core/random.h"
 
 namespace gramloom {
@@ -12,7 +10,7 @@ namespace {
 const Vec3 up{0, 0, 1};
 
 Vec3 tilted(float degrees, float turn = 0) {
-  const float a = degrees * std::numbers::pi_v<float> / 180;
+  const float a = degrees * pi / 180;
   return {std::sin(a) * std::cos(turn), std::sin(a) * std::sin(turn), std::cos(a)};
 }
 
@@ -27,8 +25,7 @@ TEST(Shading, PhongAddsAHighlightAroundTheMirroredLight) {
   const Material m{
       .shading = Shading::phong, .colour = {0, 0, 0}, .specular = 0.5f, .shininess = 8};
   EXPECT_NEAR(shade(m, up, tilted(30), tilted(-30)).x, 0.5f, 1e-6f);
-  EXPECT_NEAR(shade(m, up, tilted(30), up).x,
-              0.5f * std::pow(std::cos(std::numbers::pi_v<float> / 6), 8.0f), 1e-6f);
+  EXPECT_NEAR(shade(m, up, tilted(30), up).x, 0.5f * std::pow(std::cos(pi / 6), 8.0f), 1e-6f);
   EXPECT_EQ(shade(m, up, tilted(80), tilted(80)).x, 0);
 }
 
@@ -40,7 +37,7 @@ double reflected(const Material& m, const Vec3& view) {
   double sum = 0;
   for (int i = 0; i < count; ++i) {
     // Evenly over the half-sphere: a light of strength 1 from a solid angle dω gives 1/π dω.
-    const float z = random.uniform(), turn = 2 * std::numbers::pi_v<float> * random.uniform();
+    const float z = random.uniform(), turn = 2 * pi * random.uniform();
     const float r = std::sqrt(1 - z * z);
     sum += static_cast<double>(shade(m, up, {r * std::cos(turn), r * std::sin(turn), z}, view).x);
   }

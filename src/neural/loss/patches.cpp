@@ -13,9 +13,6 @@ namespace gramloom::neural {
 
 namespace {
 
-// Positions whose patches are multiplied at once, in whole rows: few enough for the cache.
-constexpr std::int64_t positions_of_lines = 1024;
-
 // Where patches lie in a picture that was continued across the edges where it wraps.
 struct Layout {
   std::int64_t channels, kernel, margin_y, margin_x;  // the margins lie below and to the right
@@ -49,7 +46,8 @@ Layout layout_of(const at::Tensor& planes, std::int64_t kernel, Tile wraps) {
   if (l.height < 1 || l.width < 1)
     throw Error("a patch of {0}×{0} does not fit into a picture of {1}×{2}", kernel, planes.size(2),
                 planes.size(1));
-  l.rows_at_once = std::max<std::int64_t>(1, positions_of_lines / l.width);
+  constexpr std::int64_t positions = 1024;  // multiplied at once: few enough for the cache
+  l.rows_at_once = std::max<std::int64_t>(1, positions / l.width);
   l.rows_of_share = (kernel + l.rows_at_once - 1) / l.rows_at_once * l.rows_at_once;
   l.shares = (l.height + l.rows_of_share - 1) / l.rows_of_share;
   return l;
