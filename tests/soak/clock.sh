@@ -23,6 +23,8 @@ export XDG_CACHE_HOME=$folder/cache
 } >config.toml
 "$gramloom" run config.toml --threads 1 --quiet --output whole || { echo "the undisturbed run failed" >&2; exit 1; }
 
+"$gramloom" check config.toml >/dev/null  # measures the machine's speed
+
 faults=0 runs=0
 fault() { echo "FAULT (jump $jump, time $i): $*" >&2; faults=$((faults + 1)); }
 
@@ -50,7 +52,7 @@ for jump in -1h -1d +1h +1y -1y; do
       case $? in 0 | 130) ;; *) fault "stopped with $?"; tail -n 3 log >&2 ;; esac
       # As where the clock was set the other way since.
       case $jump in -*) by="+${jump#-}" ;; *) by="-${jump#+}" ;; esac
-      by=${by/h/ hour} by=${by/d/ day} by=${by/y/ year}
+      by=$(sed 's/h$/ hour/; t; s/d$/ day/; t; s/y$/ year/' <<<"$by")
       [ -d out ] && find out cache -type f -exec touch -h -d "$by" {} +
       before=$(finished)
       run --resume --jobs $((1 + RANDOM % 2)) >>log 2>&1 || fault "resuming failed: $(tail -n 1 log)"
