@@ -60,7 +60,7 @@ ExitCode end_run(const RunOptions& options, const RunSummary& summary, ProgressB
     bar.complaint("gramloom: interrupted, not all textures are scored; --resume goes on");
     return interrupted;
   }
-  return !shown || summary.failed > 0 ? job_failed : all_done;
+  return !shown || summary.failed > 0 || summary.lacking ? job_failed : all_done;
 }
 
 }  // namespace gramloom

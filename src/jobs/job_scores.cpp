@@ -138,7 +138,6 @@ bool score_job(Run& run, const PlannedJob& planned, JobRecord& record) {
   const auto start = std::chrono::steady_clock::now();
   const JobFiles files = job_files(run.options.output, planned.name);
   const NothingToKeep scope;
-  remove_stale_temporaries(files);  // of a scoring that was killed
   record.score_error.clear();
   try {
     score_texture(run, planned, files, record);

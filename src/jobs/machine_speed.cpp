@@ -68,8 +68,9 @@ void keep_speed(const fs::path& file, const SpeedRecord& record) {
 
 bool is_old(const fs::path& file) {
   std::error_code none;
-  const auto written = fs::last_write_time(file, none);
-  return none || fs::file_time_type::clock::now() - written > std::chrono::hours(24);
+  const auto age = fs::file_time_type::clock::now() - fs::last_write_time(file, none);
+  // One of tomorrow was written before someone set the clock back.
+  return none || age > std::chrono::hours(24) || age < age.zero();
 }
 
 void measure(SpeedRecord& record) {

@@ -200,6 +200,8 @@ void do_job(Run& run, const PlannedJob& planned, const JobFiles& files, bool kee
     run.lost = false;
     return;
   }
+  // A finished result's files are now replaced one after another: until all are, there is none.
+  if (keep_old) write_record(files.record, record);
   if (!made.stopped) {
     record.status = Status::done;
     record.error.clear();
@@ -346,7 +348,6 @@ JobRecord run_job(Run& run, const PlannedJob& planned) {
   const bool keep_old = is_finished(before, files.folder);
   try {
     create_folder(files.folder);
-    remove_stale_temporaries(files);
     if (!keep_old) write_record(files.record, record);
     do_job(run, planned, files, keep_old, record);
     if (before && record.status == Status::done)

@@ -45,6 +45,11 @@ bool is_open(const Run& run, const PlannedJob& planned) {
   return !record || (record->status != Status::done && record->status != Status::failed);
 }
 
+void complain(RunState& state, const std::string& line) {
+  state.run.bar.complaint(line);
+  state.summary.lacking = true;
+}
+
 void put_down(RunState& state, const PlannedJob& planned, const JobRecord& record) {
   state.log.set(planned.name, record);
   or_complain(state.run, [&] { state.log.keep_up(); });
@@ -59,7 +64,7 @@ std::optional<JobRecord> finished_before(RunState& state, const PlannedJob& plan
   const std::string reason = reason_to_run(run, planned);
   if (reason.empty()) {
     remove_unfinished_state(files);
-    remove_stale_lock(files.lock);
+    if (const auto lock = take_stale_lock(files.lock)) remove_stale_temporaries(files);
     return find_record(files.record);
   }
   if (fs::exists(files.record)) run.bar.message(fmt::format("{}: again, {}", planned.name, reason));
@@ -93,16 +98,15 @@ void settle_scores(RunState& state, const PlannedJob& planned, const TaskResult&
   if (result.stopped) state.summary.unscored = true;
   if (result.stopped || !result.record) return;
   if (!result.record->score_error.empty())
-    state.run.bar.complaint(
-        fmt::format("{}: not scored: {}", planned.name, result.record->score_error));
+    complain(state, fmt::format("{}: not scored: {}", planned.name, result.record->score_error));
   put_down(state, planned, *result.record);
 }
 
 void settle_diversity(RunState& state, const JobGroup& group, const TaskResult& result) {
   if (result.stopped) state.summary.unscored = true;
   if (!result.error.empty())
-    state.run.bar.complaint(fmt::format(
-        "{}: no diversity: {}", job_folder(state.run.config, group.front()->job), result.error));
+    complain(state, fmt::format("{}: no diversity: {}",
+                                job_folder(state.run.config, group.front()->job), result.error));
   if (!result.diversity) return;
   state.log.set(*result.diversity);
   or_complain(state.run, [&] { state.log.keep_up(); });
@@ -137,7 +141,7 @@ void keep_exemplar(RunState& state, const Job& job, std::optional<std::size_t>& 
     return;
   }
   kept = job.exemplar;
-  or_complain(run, [&] {
+  const bool written = or_complain(run, [&] {
     const fs::path folder = run.options.output / exemplar_name(run.config, job);
     create_folder(folder);
     if (!run.options.shard) {  // another process may be writing its own
@@ -146,14 +150,17 @@ void keep_exemplar(RunState& state, const Job& job, std::optional<std::size_t>& 
     }
     write_exemplar(folder, *request, run.files);
   });
+  if (!written) state.summary.lacking = true;
 }
 
-void or_complain(const Run& run, const std::function<void()>& write) {
+bool or_complain(const Run& run, const std::function<void()>& write) {
   try {
     write();
   } catch (const Error& error) {
     run.bar.complaint(error.what());
+    return false;
   }
+  return true;
 }
 
 }  // namespace gramloom

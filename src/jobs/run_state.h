@@ -33,7 +33,7 @@ bool wants_diversity(const RunState& state, const JobGroup& group);
 /// it goes; once for jobs of one exemplar that follow each other: `kept`.
 void keep_exemplar(RunState& state, const Job& job, std::optional<std::size_t>& kept);
 
-/// Writing the run's own files may fail without harm to the jobs.
-void or_complain(const Run& run, const std::function<void()>& write);
+/// Writing the run's own files may fail without harm to the jobs; whether it did not.
+bool or_complain(const Run& run, const std::function<void()>& write);
 
 }  // namespace gramloom

@@ -49,6 +49,7 @@ struct RunSummary {
   int left = 0;
 
   bool unscored = false;  // the user stopped the scoring of a texture
+  bool lacking = false;   // scores, or files of the run itself, that could not be made or written
   int writes = 0;         // of run.json and scores.csv
 };
 

@@ -47,6 +47,7 @@ void with_lock(Run& run, const PlannedJob& planned, bool waits, TaskResult& resu
       return;
     }
   }
+  remove_stale_temporaries(files);  // of one that was killed at this job
   work();
 }
 

@@ -29,10 +29,21 @@ void create_folders(const fs::path& folder) {
 
 }  // namespace
 
-bool is_older(const fs::path& file, const fs::path& than) {
+fs::file_time_type newest_time(const std::vector<fs::path>& files) {
+  auto newest = fs::file_time_type::min();
+  std::error_code ignored;
+  for (const fs::path& file : files) newest = std::max(newest, fs::last_write_time(file, ignored));
+  return newest;
+}
+
+bool has_time(const fs::path& file, fs::file_time_type time) {
   std::error_code error;
-  const auto time = fs::last_write_time(file, error);
-  return error || time < fs::last_write_time(than, error);
+  return fs::last_write_time(file, error) == time && !error;
+}
+
+void set_time(const fs::path& file, fs::file_time_type time) {
+  std::error_code ignored;  // then it is made again the next time
+  fs::last_write_time(file, time, ignored);
 }
 
 double white_of(const ImageFile& file) {
@@ -74,9 +85,11 @@ std::string shown_file(const fs::path& folder, const std::string& file, double w
   if (!fs::is_regular_file(folder / file)) throw Error("{} is not there", file);
   if (browsers_show(file)) return file;
   const fs::path shown = preview_file(file);
-  if (is_older(folder / shown, folder / file)) {
+  const auto time = newest_time({folder / file});
+  if (!has_time(folder / shown, time)) {
     create_folders((folder / shown).parent_path());
     write_image(folder / shown, preview(read_image(folder / file), white), {});
+    set_time(folder / shown, time);
   }
   return shown.generic_string();
 }

@@ -110,15 +110,18 @@ std::string surface_view_file(const fs::path& folder, const std::string& name,
   const std::string begin = fmt::format("surfaceData({}, {{\"tile\":\"{}\",\"green\":\"{}\",",
                                         to_text(Json(shown.generic_string()), -1, true),
                                         to_word(view.tile), to_word(view.green));
-  const bool stale = std::ranges::any_of(
-      view.files, [&](const auto& file) { return is_older(folder / shown, folder / file.second); });
-  if (!stale && read_text(folder / shown).starts_with(begin)) return shown.generic_string();
+  std::vector<fs::path> files;
+  for (const auto& [kind, file] : view.files) files.push_back(folder / file);
+  const auto time = newest_time(files);
+  if (has_time(folder / shown, time) && read_text(folder / shown).starts_with(begin))
+    return shown.generic_string();
   double strength = view.strength;
   const Json maps = maps_of(folder, view, strength);
   const Json data{{"strength", strength}, {"maps", maps}};
   std::error_code error;
   fs::create_directories((folder / shown).parent_path(), error);
   write_text(folder / shown, fmt::format("{}{});\n", begin, to_text(data, -1, true).substr(1)));
+  set_time(folder / shown, time);
   return shown.generic_string();
 }
 

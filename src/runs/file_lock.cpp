@@ -97,12 +97,13 @@ bool FileLock::share() {
   return comes_true(patience, [&] { return lock(descriptor_, LOCK_SH, path_); });
 }
 
-void remove_stale_lock(const fs::path& path) {
+std::optional<FileLock> take_stale_lock(const fs::path& path) {
   std::error_code ignored;
-  if (!fs::exists(path, ignored) || !is_lock(path)) return;
+  if (!fs::exists(path, ignored) || !is_lock(path)) return std::nullopt;
   try {
-    FileLock::take(path, FileLock::Mode::exclusive);
+    return FileLock::take(path, FileLock::Mode::exclusive);
   } catch (const Error&) {
+    return std::nullopt;
   }
 }
 

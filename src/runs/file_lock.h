@@ -31,8 +31,9 @@ class FileLock {
   int descriptor_;
 };
 
-/// Removes a lock that nobody holds: of a process that was killed.
-void remove_stale_lock(const std::filesystem::path& path);
+/// The lock that a killed process has left, to do with what else it left; none where there is no
+/// such file, or where someone holds it.
+std::optional<FileLock> take_stale_lock(const std::filesystem::path& path);
 
 /// Who holds a lock, as its file says: "process 123 on HOST"; "" where that is not known.
 std::string holder_of(const std::filesystem::path& path);

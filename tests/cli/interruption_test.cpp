@@ -156,6 +156,44 @@ TEST_F(Interruption, KilledAtAnyMomentAndResumedNothingIsLost) {
         << entry.path() << " was left";
 }
 
+TEST_F(Interruption, ARunFromTheStartThatIsKilledWhileItReplacesFilesLeavesNoResultCalledDone) {
+  // Maps are written for a while after the picture.
+  write_text(folder_ / "maps.toml",
+             "[[method]]\nname = 'n'\nkind = 'procedural'\ntexture = 'noise'\n"
+             "[surface]\nheight = 'brightness'\n");
+  const std::string picture = "out/maps/procedural/n/seed1.png";
+  ASSERT_EQ(run({"run", "maps.toml", "--set", "size=40"}).exit_code, 0);
+  const std::string before = file(picture);
+  Process process(folder_, {"run", "maps.toml", "--set", "size=900"});
+  for (int i = 0; i < 60000 && file(picture) == before; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  process.signal(SIGKILL);
+  EXPECT_EQ(process.wait().exit_code, 128 + SIGKILL);
+  ASSERT_FALSE(file(picture) == before);
+  EXPECT_EQ(record("procedural/n/seed1", "out/maps")->status, Status::interrupted);
+  EXPECT_EQ(run({"run", "maps.toml", "--set", "size=40", "--resume"}).exit_code, 0);
+  EXPECT_TRUE(file(picture) == before);
+}
+
+TEST_F(Interruption, WhatAKilledProcessLeftOfAFinishedJobIsRemoved) {
+  ASSERT_EQ(run({"run", "c.toml"}).exit_code, 0);
+  const std::vector<std::string> left{"e/q/.seed1.json.41babc3f.22701.22.tmp", "e/q/seed1.lock"};
+  write_text(folder_ / "out/c" / left[0], "{");
+  write_text(folder_ / "out/c" / left[1], "held by gramloom, process 22701 on host\n");
+  EXPECT_EQ(run({"run", "c.toml", "--resume"}).exit_code, 0);
+  for (const auto& name : left) EXPECT_FALSE(fs::exists(folder_ / "out/c" / name)) << name;
+}
+
+TEST_F(Interruption, TheMachinesSpeedIsMeasuredAgainWhereItsFileIsOfTomorrow) {
+  // It was written before someone set the clock back.
+  const std::string check = "XDG_CACHE_HOME=$PWD/cache $GRAMLOOM check c.toml > said 2>&1; ";
+  const Outcome outcome =
+      shell(folder_, check + "touch -d '+1 year' cache/gramloom/speed.json; " + check +
+                         "find cache -name speed.json -newermt '+1 day'");
+  EXPECT_EQ(outcome.output, "");
+  EXPECT_TRUE(fs::exists(folder_ / "cache/gramloom/speed.json"));
+}
+
 TEST_F(Interruption, StoppedWhileItScoresTheTextureIsKeptAndOnlyScoredLater) {
   write_text(folder_ / "large.toml",
              "size = [500, 500]\n"
@@ -210,6 +248,19 @@ TEST_F(Interruption, ADiskThatIsFullFailsTheJobInOneLine) {
       << "four jobs and the page: " << outcome.errors;
   EXPECT_EQ(record("e/q/seed1")->status, Status::failed);
   EXPECT_FALSE(fs::exists(folder_ / "out/c/e/q/seed1.png"));
+}
+
+TEST_F(Interruption, AFileOfTheRunThatCannotBeWrittenIsNoSuccess) {
+  // The limit lets the page through, but not an exemplar of a million random bytes.
+  Image image(600, 600, 3);
+  Random random(1);
+  for (float& value : image.pixels) value = random.uniform();
+  write_image(folder_ / "e.png", image, {});
+  const Outcome outcome =
+      shell(folder_, "ulimit -f 600; $GRAMLOOM run c.toml --quiet --set scores=false");
+  EXPECT_EQ(outcome.exit_code, 1) << "the exemplar is not beside its results";
+  EXPECT_THAT(outcome.errors, testing::HasSubstr("exemplar.png"));
+  EXPECT_EQ(record("e/q/seed2")->status, Status::done);
 }
 
 // An iterative method keeps its state, so that a stopped job goes on where it was.

@@ -52,7 +52,7 @@ TEST_F(ShownFile, IsTheFileItselfWhereBrowsersShowIt) {
   EXPECT_FALSE(fs::exists(path() / "page"));
 }
 
-TEST_F(ShownFile, IsAPreviewThatIsMadeOnceAndAgainForANewerFile) {
+TEST_F(ShownFile, IsAPreviewThatIsMadeOnceAndAgainForAnotherFile) {
   fs::create_directories(path() / "e/m");
   const auto write = [&](float value) {
     write_image(path() / "e/m/seed1.exr", Image(2, 2, 3, value), {PixelType::half, "sRGB", {}});
@@ -61,14 +61,19 @@ TEST_F(ShownFile, IsAPreviewThatIsMadeOnceAndAgainForANewerFile) {
   const std::string shown = shown_file(path(), "e/m/seed1.exr", 1);
   EXPECT_EQ(shown, "page/e/m/seed1.exr.png");
   EXPECT_EQ(read_image(path() / shown).image.pixels[0], 1);
+  const auto time = fs::last_write_time(path() / "e/m/seed1.exr");
   write_text(path() / shown, "left alone");
+  fs::last_write_time(path() / shown, time);
   shown_file(path(), "e/m/seed1.exr", 1);
   EXPECT_EQ(read_text(path() / shown), "left alone");
-  write(0);
-  fs::last_write_time(path() / "e/m/seed1.exr",
-                      fs::file_time_type::clock::now() + std::chrono::seconds(5));
-  shown_file(path(), "e/m/seed1.exr", 1);
-  EXPECT_EQ(read_image(path() / shown).image.pixels[0], 0);
+  float value = 0;
+  for (const auto& then : {time + std::chrono::seconds(5), time - std::chrono::hours(24)}) {
+    write(value);
+    fs::last_write_time(path() / "e/m/seed1.exr", then);
+    shown_file(path(), "e/m/seed1.exr", 1);
+    EXPECT_EQ(read_image(path() / shown).image.pixels[0], value) << "also where clocks were set";
+    value = 1;
+  }
 }
 
 TEST_F(ShownFile, AFileThatIsMissingOrBrokenIsAnError) {

@@ -100,18 +100,25 @@ TEST_F(SurfaceViews, SignedNormalsOfFloatsAreShownAsColours) {
   EXPECT_NEAR(shown.pixels[2], 0.9f, 0.003f);
 }
 
-TEST_F(SurfaceViews, AreMadeAgainOnlyWhenAFileIsNewer) {
+TEST_F(SurfaceViews, AreMadeAgainOnlyWhenAFileIsOfAnotherTime) {
   write_image(folder_ / "c.png", Image(4, 4, 3), {});
   const SurfaceView view{{{"colour", "c.png"}}};
   const fs::path script = folder_ / surface_view_file(folder_, "e/q/seed1", view);
   const std::string kept = read_text(script) + "// kept";
-  write_text(script, kept);
+  const auto keep = [&] {
+    write_text(script, kept);
+    fs::last_write_time(script, fs::last_write_time(folder_ / "c.png"));
+  };
+  keep();
   surface_view_file(folder_, "e/q/seed1", view);
   EXPECT_EQ(read_text(script), kept);
-  fs::last_write_time(folder_ / "c.png", fs::last_write_time(script) + std::chrono::seconds(2));
-  surface_view_file(folder_, "e/q/seed1", view);
-  EXPECT_NE(read_text(script), kept);
-  write_text(script, kept);
+  for (const int hours : {1, -24}) {
+    keep();
+    fs::last_write_time(folder_ / "c.png", fs::last_write_time(script) + std::chrono::hours(hours));
+    surface_view_file(folder_, "e/q/seed1", view);
+    EXPECT_NE(read_text(script), kept) << "also where a clock was set back";
+  }
+  keep();
   surface_view_file(folder_, "e/q/seed1", {{{"colour", "c.png"}}, 1, 8, GreenAxis::down});
   EXPECT_NE(read_text(script), kept) << "one of before knew no green";
 }
