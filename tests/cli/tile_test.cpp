@@ -80,7 +80,7 @@ TEST_F(TileCommand, MistakesAreOneLineAndExitCode2) {
       {{"e.png", "--size", "64", "--cell", "2", "--output", "a.png"}, "--cell"},
       {{"e.png", "--size", "64", "--period", "3", "--output", "a.png"}, "period has 1 numbers"},
       {{"e.png", "--size", "70000x8", "--output", "a.jpg"}, "a side has at most 65500"},
-      {{"e.png", "--output", "a.png"}, "--size is required"}};
+      {{"e.png", "--output", "a.png"}, "tile: needed is '--size'"}};
   for (const auto& [arguments, message] : cases) expect_refused("tile", arguments, message);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a.png"));
 }
