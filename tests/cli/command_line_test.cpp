@@ -78,6 +78,19 @@ TEST_F(CommandLine, AnUnknownWordIsNamedWithTheOneThatMayBeMeant) {
   }
 }
 
+TEST_F(CommandLine, AFolderThatIsNoRunIsNamedOnceByEveryCommand) {
+  const std::vector<std::vector<std::string>> commands{
+      {"report", "nosuch"},
+      {"benchmark", "nosuch"},
+      {"pick", "nosuch", "e/q/seed1", "--output", "x"},
+      {"export", "nosuch", "--target", "gltf", "--output", "x"}};
+  for (const auto& words : commands) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.exit_code, 2) << words.front();
+    EXPECT_EQ(outcome.errors, "nosuch: there is no run.json, so this is not the folder of a run\n");
+  }
+}
+
 TEST_F(CommandLine, AMistakeInTheConfigIsShownWithItsPlace) {
   write_text(folder_ / "bad.toml", file("c.toml") + "octave = 3\n");
   for (const std::string command : {"run", "check"}) {
@@ -206,7 +219,7 @@ TEST_F(CommandLine, ReportWritesThePageOfARunAgain) {
   EXPECT_TRUE(file("elsewhere/index.html") == page) << "all of it is in the folder";
   for (const std::string folder : {".", "nowhere", "e.png"}) {
     const Outcome none = run({"report", folder});
-    EXPECT_EQ(none.exit_code, 1) << folder;
+    EXPECT_EQ(none.exit_code, 2) << folder;
     EXPECT_TRUE(is_one_line(none.errors)) << none.errors;
   }
 }
