@@ -71,7 +71,8 @@ TEST_F(TileCommand, AnEmptyNameIsAnError) {
 
 TEST_F(TileCommand, MistakesAreOneLineAndExitCode2) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
-      {{"e.png", "--size", "10x", "--output", "a.png"}, "--size 10x: needed is WIDTHxHEIGHT"},
+      {{"e.png", "--size", "10x", "--output", "a.png"},
+       "--size 10x: needed is SIDE|WIDTHxHEIGHT, each from 1 to 1000000 pixels"},
       {{"e.png", "--size", "0", "--output", "a.png"}, "--size 0"},
       {{"e.png", "--size", "9999999x2", "--output", "a.png"}, "1000000"},
       {{"e.png", "--size", "64", "--output", "e.png"}, "would write over e.png, which is to be"},
