@@ -21,19 +21,11 @@ struct BenchmarkArguments {
   int threads = 0;
 };
 
-RunOnDisk read_folder(const std::string& folder) {
-  try {
-    return read_run(folder);
-  } catch (const Error& error) {
-    throw ConfigError("benchmark {}: {}", folder, error.what());
-  }
-}
-
 ExitCode compare_methods(const BenchmarkArguments& arguments) {
   use_threads(arguments.threads);
   std::vector<Peer> peers;
   for (const std::string& option : arguments.peers) peers.push_back(parse_peer(option));
-  const RunOnDisk run = read_folder(arguments.folder);
+  const RunOnDisk run = read_named_run(arguments.folder);
   const Benchmark benchmark = benchmark_run(run, score_peers(run, peers, {}), arguments.against);
   for (const std::string& line : benchmark.missing) print_message("gramloom: " + line);
   const TableStyle style = arguments.markdown ? TableStyle::markdown : TableStyle::plain;

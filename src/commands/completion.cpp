@@ -3,6 +3,7 @@
 
 #include "commands/command.h"
 #include "commands/completions.h"
+#include "commands/usage.h"
 
 namespace gramloom {
 
@@ -102,7 +103,7 @@ Command add_completion(CLI::App& program) {
       ->add_option("shell", arguments->shell,
                    "which; words: what they ask, a line for each word that may be next")
       ->required()
-      ->check(CLI::IsMember(std::vector<std::string>{"bash", "zsh", "fish", "words"}));
+      ->check(one_of({"bash", "zsh", "fish", "words"}));
   command->add_option("words", arguments->words,
                       "of the command line so far, without 'gramloom', the last to be completed");
   return {command, [&program, arguments] { return completion(program, *arguments); }};

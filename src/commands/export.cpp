@@ -5,6 +5,7 @@
 #include "commands/config_options.h"
 #include "commands/export_model.h"
 #include "commands/export_run.h"
+#include "commands/usage.h"
 #include "core/error.h"
 #include "jobs/progress_bar.h"
 
@@ -96,7 +97,7 @@ Command add_export(CLI::App& program) {
                    "of a run: gltf: glTF 2.0, on a ball and a plane; materialx: a "
                    "standard_surface. Of a generator: c: a file of C99; glsl: shaders of WebGL 2; "
                    "onnx: for onnxruntime and others")
-      ->check(CLI::IsMember(targets))
+      ->check(one_of(targets))
       ->required()
       ->type_name("");
   command->add_option("--output", arguments->output, "folder of the materials, or file of the code")

@@ -178,14 +178,6 @@ bool is_wanted(const ExportWork& work, const JobOnDisk& job) {
          matches(work.only, fs::path(job.name).parent_path().generic_string());
 }
 
-RunOnDisk read_results(const ExportWork& work) {
-  try {
-    return read_run(work.run);
-  } catch (const Error& error) {
-    throw ConfigError("export {}: {}", work.run.string(), error.what());
-  }
-}
-
 fs::path export_job(const ExportWork& work, const JobOnDisk& job) {
   const fs::path stem = work.output / job.name;
   create_folder(stem.parent_path());
@@ -197,7 +189,7 @@ fs::path export_job(const ExportWork& work, const JobOnDisk& job) {
 }  // namespace
 
 Exported export_run(const ExportWork& work) {
-  const RunOnDisk run = read_results(work);
+  const RunOnDisk run = read_named_run(work.run);
   check_marked_folder({"export", work.run, work.output, mark});
   std::vector<const JobOnDisk*> finished;
   std::size_t wanted = 0;

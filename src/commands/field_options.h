@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/usage.h"
 #include "io/field_values.h"
 
 namespace gramloom {
@@ -26,7 +27,7 @@ CLI::Option* add_word_of(CLI::App& command, const std::string& option, Value& va
             value = static_cast<E>(std::find(words.begin(), words.end(), word) - words.begin());
           },
           meaning)
-      ->check(CLI::IsMember(words))
+      ->check(one_of(words))
       ->type_name("");
 }
 

@@ -30,7 +30,7 @@ ExitCode generate_file(const GenerateArguments& arguments) {
   work.params.model = FileOrName(arguments.model);
   work.params.weight_picture = arguments.weight_picture;
   work.output = arguments.output;
-  work.size = size_of("--size", arguments.size);
+  work.size = size_of("--size", arguments.size, longest_written_side);
   return with_progress(work.output.filename().string(), arguments.quiet,
                        [&](const Control& control, ProgressBar&) {
                          const GeneratedFiles generated = generate_picture(work, control);
@@ -57,7 +57,7 @@ Command add_generate(CLI::App& program) {
       ->required();
   command->add_option("--size", arguments->size, "of the result, pixels")
       ->required()
-      ->type_name("WIDTHxHEIGHT");
+      ->type_name(size_notation);
   command
       ->add_option("--output", arguments->output,
                    "the result (.png, .tif, .exr, .jpg …); maps go to FILE_NAME beside it")

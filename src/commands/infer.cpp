@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "commands/command.h"
+#include "commands/usage.h"
 #include "commands/with_progress.h"
 #include "core/error.h"
 #include "jobs/infer_pictures.h"
@@ -69,7 +70,7 @@ Command add_infer(CLI::App& program) {
       ->required()
       ->type_name("FILE");
   command->add_option("--format", work.format, "file type of pictures in a folder; exr")
-      ->check(CLI::IsMember({"exr", "tif", "png", "jpg"}))
+      ->check(one_of({"exr", "tif", "png", "jpg"}))
       ->type_name("");
   command->add_flag("--extrapolate", work.extrapolates,
                     "poses outside the ranges that were learnt too");

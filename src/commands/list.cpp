@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "commands/command.h"
+#include "commands/usage.h"
 #include "core/error.h"
 #include "jobs/key_lists.h"
 #include "jobs/listing.h"
@@ -54,7 +55,7 @@ Command add_list(CLI::App& program) {
       "list", "List methods, what they can be asked, and what else there is");
   std::vector<std::string> names;
   for (const Topic& one : topics()) names.push_back(one.name);
-  list->add_option("topic", *topic, "which list; all")->check(CLI::IsMember(names));
+  list->add_option("topic", *topic, "which list; all")->check(one_of(names));
   list->add_flag("--json", *as_json, "for programs: with types, limits and words");
   return {list, [topic, as_json] { return list_topic(*topic, *as_json); }};
 }

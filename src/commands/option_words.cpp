@@ -6,7 +6,7 @@ namespace gramloom {
 
 namespace {
 
-// CLI11 tells the words of IsMember as "{a,b}" behind the type.
+// CLI11 tells the words of one_of as "{a,b}" behind the type.
 std::vector<std::string> words_in(const std::string& type) {
   const std::size_t begin = type.find('{');
   const std::size_t end = type.find('}');

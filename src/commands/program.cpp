@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "commands/command.h"
+#include "commands/usage.h"
 #include "core/error.h"
 #include "jobs/machine.h"
 
@@ -46,7 +47,7 @@ ExitCode run_program(int argc, char** argv) {
     const auto asked = app.get_subcommands();
     return print(asked.empty() ? app.help() : asked.front()->help(app.get_name()));
   } catch (const CLI::ParseError& error) {
-    throw ConfigError("{} (see --help)", error.what());
+    throw ConfigError("{} (see --help)", usage_mistake(app, error));
   }
   const auto asked = std::ranges::find(commands, app.get_subcommands().front(), &Command::app);
   return asked->work();

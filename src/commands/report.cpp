@@ -21,7 +21,7 @@ RunOnDisk gather_records(const std::string& folder) {
     lock = lock_folder(folder);
   } catch (const Error&) {
   }
-  RunOnDisk run = read_run(folder);
+  RunOnDisk run = read_named_run(folder);
   const auto scores = run.folder / "scores.csv";
   if (lock && (!std::filesystem::exists(scores) || is_score_sheet(scores))) rewrite_run_files(run);
   return run;

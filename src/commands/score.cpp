@@ -4,6 +4,7 @@
 
 #include "commands/command.h"
 #include "commands/config_options.h"
+#include "commands/usage.h"
 #include "io/field_values.h"
 #include "jobs/progress_bar.h"
 #include "jobs/score_files.h"
@@ -53,7 +54,7 @@ Command add_score(CLI::App& program) {
                   "score pictures with known faults beside them: shuffled pixels, random phase, "
                   "the exemplar tiled, its halves");
   score->add_option("--tile", arguments->tile, "axes on which the pictures tile, for the seams")
-      ->check(CLI::IsMember({"none", "x", "y", "both"}));
+      ->check(one_of({"none", "x", "y", "both"}));
   add_threads(*score, arguments->threads);
   return {score, [arguments] { return score_pictures(*arguments); }};
 }

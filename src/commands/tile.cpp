@@ -32,7 +32,7 @@ ExitCode tile(const TileArguments& arguments) {
   TileWork work = arguments.work;
   work.picture = arguments.picture;
   work.output = arguments.output;
-  work.size = size_of("--size", arguments.size);
+  work.size = size_of("--size", arguments.size, longest_written_side);
   work.maps = named_maps(arguments.maps);
   if (arguments.max_side > 0) work.max_side = arguments.max_side;
   return with_progress(work.output.filename().string(), arguments.quiet,
@@ -58,7 +58,7 @@ Command add_tile(CLI::App& program) {
   command->add_option("picture", arguments->picture, "the small picture")->required();
   command->add_option("--size", arguments->size, "of the result, pixels")
       ->required()
-      ->type_name("WIDTHxHEIGHT");
+      ->type_name(size_notation);
   command->add_option("--output", arguments->output, "the result (.png, .tif, .exr, .jpg …)")
       ->required()
       ->type_name("FILE");

@@ -180,8 +180,8 @@ std::vector<std::string> files_of(const JobOnDisk& job) {
 }
 
 std::vector<Pick> picks_of(const PickWork& work) {
+  const RunOnDisk run = read_named_run(work.run);
   try {
-    const RunOnDisk run = read_run(work.run);
     Origin origin(run);
     std::vector<Pick> picks;
     for (const std::string& name : names_of(work)) {

@@ -89,4 +89,12 @@ RunOnDisk read_run(const fs::path& folder) {
   return run;
 }
 
+RunOnDisk read_named_run(const fs::path& folder) {
+  try {
+    return read_run(folder);
+  } catch (const Error& error) {
+    throw ConfigError("{}", error.what());
+  }
+}
+
 }  // namespace gramloom

@@ -29,5 +29,7 @@ struct RunOnDisk {
 /// Reads run.json and the jobs that it names. Throws Error when that file is missing or not one of
 /// a run; what is wrong with a single job is said in its record.
 RunOnDisk read_run(const std::filesystem::path& folder);
+/// The same of a folder that a command was told: throws ConfigError, which names the folder.
+RunOnDisk read_named_run(const std::filesystem::path& folder);
 
 }  // namespace gramloom

@@ -52,6 +52,45 @@ TEST_F(CommandLine, BadUsageIsOneLineAndExitCode2) {
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
+TEST_F(CommandLine, AnUnknownWordIsNamedWithTheOneThatMayBeMeant) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+      {{}, "needed is a command"},
+      {{"frobnicate"}, "there is no command 'frobnicate'"},
+      {{"frobnicate", "--size", "3"}, "there is no command 'frobnicate'"},
+      {{"lsit"}, "there is no command 'lsit'; did you mean 'list'?"},
+      {{"lsit", "run", "c.toml"}, "there is no command 'lsit'; did you mean 'list'?"},
+      {{"--verison"}, "there is no option '--verison'; did you mean '--version'?"},
+      {{"run", "--quite"}, "run: there is no option '--quite'; did you mean '--quiet'?"},
+      {{"run", "c.toml", "--thread=2"},
+       "run: there is no option '--thread'; did you mean '--threads'?"},
+      {{"run", "c.toml", "d.toml"}, "run: 'd.toml' is one word too many"},
+      {{"score", "e.png"}, "score: needed is 'images': pictures to score"},
+      {{"score", "e.png", "e.png", "--tile", "z"},
+       "--tile: there is no 'z'; allowed are none, x, y, both"},
+      {{"make", "e.png", "--tile", "boht"},
+       "--tile: there is no 'boht'; allowed are none, x, y, both; did you mean 'both'?"},
+      {{"completion", "bsh"},
+       "shell: there is no 'bsh'; allowed are bash, zsh, fish, words; did you mean 'bash'?"}};
+  for (const auto& [words, says] : cases) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.errors, says + " (see --help)\n");
+  }
+}
+
+TEST_F(CommandLine, AFolderThatIsNoRunIsNamedOnceByEveryCommand) {
+  const std::vector<std::vector<std::string>> commands{
+      {"report", "nosuch"},
+      {"benchmark", "nosuch"},
+      {"pick", "nosuch", "e/q/seed1", "--output", "x"},
+      {"export", "nosuch", "--target", "gltf", "--output", "x"}};
+  for (const auto& words : commands) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.exit_code, 2) << words.front();
+    EXPECT_EQ(outcome.errors, "nosuch: there is no run.json, so this is not the folder of a run\n");
+  }
+}
+
 TEST_F(CommandLine, AMistakeInTheConfigIsShownWithItsPlace) {
   write_text(folder_ / "bad.toml", file("c.toml") + "octave = 3\n");
   for (const std::string command : {"run", "check"}) {
@@ -180,7 +219,7 @@ TEST_F(CommandLine, ReportWritesThePageOfARunAgain) {
   EXPECT_TRUE(file("elsewhere/index.html") == page) << "all of it is in the folder";
   for (const std::string folder : {".", "nowhere", "e.png"}) {
     const Outcome none = run({"report", folder});
-    EXPECT_EQ(none.exit_code, 1) << folder;
+    EXPECT_EQ(none.exit_code, 2) << folder;
     EXPECT_TRUE(is_one_line(none.errors)) << none.errors;
   }
 }

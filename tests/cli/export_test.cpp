@@ -107,7 +107,7 @@ TEST_F(ExportCommand, RefusesInOneLine) {
   for (const auto* name : {"q", "h"})
     fs::remove(folder_ / "lost/it's 100% #1" / name / "seed1.png");
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
-      {{"empty", "--target", "gltf", "--output", "x"}, "export empty: "},
+      {{"empty", "--target", "gltf", "--output", "x"}, "empty: there is no run.json"},
       {{"out/m", "--target", "obj", "--output", "x"}, "--target"},
       {{"out/m", "--target", "gltf", "--only", "none", "--output", "x"}, "no job matches"},
       {{"out/m", "--target", "gltf", "--output", "out/m"}, "is the run's own folder"},

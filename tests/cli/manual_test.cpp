@@ -139,6 +139,37 @@ TEST_F(Manual, CompletionsKnowEveryKeyAfterSet) {
   EXPECT_THAT(completed({"make", "e.png", "--set", "seeds"}), testing::IsEmpty());
 }
 
+TEST_F(Manual, CompletionsFollowFromWhatStandsBefore) {
+  const std::vector<KeyList> methods = method_lists();
+  const auto quilting = std::ranges::find(methods, "quilting", &KeyList::name);
+  std::vector<std::string> keys;
+  for (const Key& key : quilting->keys) keys.push_back(key.name + "=");
+  EXPECT_THAT(completed({"make", "e.png", "--kind", "quilting", "--set", ""}),
+              testing::ElementsAreArray(keys));
+  EXPECT_THAT(completed({"make", "--kind=quilting", "e.png", "--set", ""}),
+              testing::ElementsAreArray(keys));
+  EXPECT_THAT(completed({"make", "e.png", "--kind", "quilting", "--preset", ""}),
+              testing::IsEmpty());
+  EXPECT_THAT(completed({"make", "e.png", "--kind", "neural", "--preset", "ba"}),
+              testing::ElementsAre("balanced"));
+  EXPECT_THAT(
+      completed({"manual", "gramloom-c"}),
+      testing::UnorderedElementsAre("gramloom-check", "gramloom-completion", "gramloom-config"));
+}
+
+TEST_F(Manual, CompletionsKnowWhatAConfigAndARunHave) {
+  EXPECT_THAT(completed({"run", "c.toml", "--set", "method.q.patch"}),
+              testing::ElementsAre("method.q.patch_size="));
+  EXPECT_THAT(completed({"run", "--quiet", "--threads", "1", "c.toml", "--set", "method.n.octa"}),
+              testing::ElementsAre("method.n.octaves="));
+  EXPECT_THAT(completed({"check", "c.toml", "--only", "e/"}),
+              testing::ElementsAre("e/q/seed1", "e/q/seed2"));
+  EXPECT_EQ(run({"run", "c.toml", "--quiet", "--only", "e/q/seed2"}).exit_code, 0);
+  EXPECT_THAT(completed({"pick", "out/c", ""}), testing::ElementsAre("e/q/seed2"));
+  EXPECT_THAT(completed({"pick", "ou"}), testing::IsEmpty());
+  EXPECT_THAT(completed({"run", "none.toml", "--only", ""}), testing::IsEmpty());
+}
+
 TEST_F(Manual, BashCompletes) {
   output_of({"completion", "zsh"});
   output_of({"completion", "fish"});

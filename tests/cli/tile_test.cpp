@@ -71,7 +71,8 @@ TEST_F(TileCommand, AnEmptyNameIsAnError) {
 
 TEST_F(TileCommand, MistakesAreOneLineAndExitCode2) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
-      {{"e.png", "--size", "10x", "--output", "a.png"}, "--size 10x: needed is WIDTHxHEIGHT"},
+      {{"e.png", "--size", "10x", "--output", "a.png"},
+       "--size 10x: needed is SIDE|WIDTHxHEIGHT, each from 1 to 1000000 pixels"},
       {{"e.png", "--size", "0", "--output", "a.png"}, "--size 0"},
       {{"e.png", "--size", "9999999x2", "--output", "a.png"}, "1000000"},
       {{"e.png", "--size", "64", "--output", "e.png"}, "would write over e.png, which is to be"},
@@ -80,7 +81,7 @@ TEST_F(TileCommand, MistakesAreOneLineAndExitCode2) {
       {{"e.png", "--size", "64", "--cell", "2", "--output", "a.png"}, "--cell"},
       {{"e.png", "--size", "64", "--period", "3", "--output", "a.png"}, "period has 1 numbers"},
       {{"e.png", "--size", "70000x8", "--output", "a.jpg"}, "a side has at most 65500"},
-      {{"e.png", "--output", "a.png"}, "--size is required"}};
+      {{"e.png", "--output", "a.png"}, "tile: needed is '--size'"}};
   for (const auto& [arguments, message] : cases) expect_refused("tile", arguments, message);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "a.png"));
 }

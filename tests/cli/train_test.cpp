@@ -167,7 +167,8 @@ TEST_F(TrainCommand, SaysWhatIsWrongInOneLine) {
          "--only moss/*: no model of t.toml matches (there are spots/small)");
   expect({"generate", "t.toml", "--size", "8", "--output", "g.png"}, "t.toml");
   expect({"generate", "moss", "--size", "8", "--output", "g.png"}, "unknown model 'moss'");
-  expect({"generate", "pebbles", "--size", "8x", "--output", "g.png"}, "needed is WIDTHxHEIGHT");
+  expect({"generate", "pebbles", "--size", "8x", "--output", "g.png"},
+         "needed is SIDE|WIDTHxHEIGHT");
   expect({"generate", "pebbles", "--size", "8", "--output", "g.png", "--weights", "1,2"},
          "2 numbers are given, the model has 1 materials");
   fs::create_directories(folder_ / "foreign/models");
