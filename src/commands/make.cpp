@@ -7,6 +7,7 @@
 #include "commands/field_options.h"
 #include "commands/map_files.h"
 #include "commands/size_option.h"
+#include "commands/usage.h"
 #include "commands/with_progress.h"
 #include "core/error.h"
 #include "core/spinning.h"
@@ -80,11 +81,11 @@ Command add_make(CLI::App& program, const std::vector<std::string>& words) {
                    "the result (.png, .tif, .exr or .jpg); maps go to FILE_NAME beside it")
       ->type_name("FILE");
   command->add_option("--size", arguments->size, "of the result, pixels; 512")
-      ->type_name("SIDE|WIDTH,HEIGHT");
+      ->type_name(size_notation);
   add_word(*command, "--tile", work.tile, "edges of the result that meet; both");
   const auto kinds = methods_with(Ability::exemplar);
   command->add_option("--kind", work.kind, "kind of the method; neural")
-      ->check(CLI::IsMember(std::vector<std::string>(kinds.begin(), kinds.end())))
+      ->check(one_of({kinds.begin(), kinds.end()}))
       ->type_name("");
   add_word(*command, "--preset", work.preset,
            "settings of neural; fast. balanced takes five times as long, quality ten times");
