@@ -103,7 +103,7 @@ Command add_make(CLI::App& program, const std::vector<std::string>& words) {
       ->add_option(
           "--max-side", arguments->max_side,
           "scale the exemplars' longer sides down to this; 1024, or the result's longer side")
-      ->check(CLI::Range(1, 65536))
+      ->check(CLI::Range(1, longest_side))
       ->type_name("PIXELS");
   add_repeated(*command, "--set", work.set,
                "a parameter of the method (see gramloom list methods); can be repeated",

@@ -13,6 +13,9 @@ struct Size {
   friend bool operator==(const Size&, const Size&) = default;
 };
 
+/// Of a result that is made as a whole: what configs and command lines allow.
+inline constexpr int longest_side = 65536;
+
 /// In pixels.
 inline double area(Size size) { return static_cast<double>(size.width) * size.height; }
 

@@ -65,7 +65,7 @@ struct ExemplarEntry : ExemplarPicture {
                          &E::max_side,
                          "scale the longer side down to this",
                          "pixels",
-                         {1, 65536}},
+                         {1, longest_side}},
                    Field{"licence", &E::licence, "under which it may be used, for models of it"}});
   }
 };
@@ -113,7 +113,7 @@ struct Config {
     using C = Config;
     return std::tuple{
         Field{"seeds", &C::seeds, "one job for each", "", {0, 2147483647}},
-        Field{"size", &C::size, "width and height of the results", "pixels", {1, 65536}},
+        Field{"size", &C::size, "width and height of the results", "pixels", {1, longest_side}},
         Field{"tile", &C::tile, "which edges must meet seamlessly"},
         Field{"format", &C::format, "file type of the results"},
         Field{"pixel_type", &C::pixel_type, "how results store a value; the exemplar's if not set"},

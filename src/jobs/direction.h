@@ -114,12 +114,12 @@ struct FillEntry {
               &F::band,
               "width of that band on each side; 0: an eighth of the picture, 64 at most",
               "pixels",
-              {0, 65536}},
+              {0, longest_side}},
         Field{"extend",
               &F::extend,
               "add to the picture on its left, top, right and bottom",
               "pixels",
-              {0, 65536}},
+              {0, longest_side}},
     };
   }
 };

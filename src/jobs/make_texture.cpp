@@ -92,7 +92,6 @@ void check_pictures(const MakeWork& work) {
 }
 
 std::string exemplar_section(const MakeWork& work) {
-  check_pictures(work);
   std::string text =
       fmt::format("\n[[exemplar]]\nname = {}\n", quoted(exemplar_name(work.exemplars.front())));
   if (work.exemplars.size() == 1)
@@ -166,6 +165,7 @@ std::string config_of(const MakeWork& work) {
   if (!texture.empty() && (work.max_side || !work.maps.empty()))
     throw ConfigError("{} is no picture but a procedural texture: it has no --map, no --max-side",
                       texture);
+  if (texture.empty()) check_pictures(work);
   return fmt::format("seeds = [{}]\nsize = [{}, {}]\ntile = \"{}\"\nformat = \"{}\"\n", work.seed,
                      work.size.width, work.size.height, to_word(work.tile),
                      format_of(work.output)) +

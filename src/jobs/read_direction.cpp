@@ -12,8 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int longest_side = 65536;
-
 void check_pair(const std::vector<double>& values, const toml::table& table, std::string_view key) {
   if (values.size() != 2)
     fail(key_region(table, key), "'{}' has {} {}: it must be two, for black and for white", key,

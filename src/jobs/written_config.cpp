@@ -56,9 +56,8 @@ namespace {
 // Without "make:8:1: " before it.
 std::string without_place(const std::string& message, const std::string& file) {
   const std::string digits = "0123456789";
-  std::size_t end = 0;
   if (!message.starts_with(file + ":")) return message;
-  end = message.find_first_not_of(digits, file.size() + 1);
+  std::size_t end = message.find_first_not_of(digits, file.size() + 1);
   if (end == std::string::npos || message[end] != ':') return message;
   end = message.find_first_not_of(digits, end + 1);
   if (end == std::string::npos || !message.substr(end).starts_with(": ")) return message;

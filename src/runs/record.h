@@ -96,7 +96,7 @@ struct JobRecord {
         Field{"method", &R::method, "its name in the config"},
         Field{"kind", &R::kind, "of the method"},
         Field{"seed", &R::seed, "of the random numbers", "", {0, 2147483647}},
-        Field{"size", &R::size, "width and height of the texture", "pixels", {0, 65536}},
+        Field{"size", &R::size, "width and height of the texture", "pixels", {0, longest_side}},
         Field{"status", &R::status, "how the job stands"},
         Field{"error", &R::error, "why it is not done"},
         Field{"seconds", &R::seconds, "time that the method took, over all attempts", "s", from_0},

@@ -12,7 +12,7 @@ namespace gramloom {
 
 namespace {
 
-constexpr int longest_side = 192;         // of the picture that is looked at
+constexpr int side_looked_at = 192;       // of the picture that is looked at
 constexpr double slow_changes = 1.0 / 6;  // of the shorter side
 constexpr double reach = 0.6;             // of the side: the largest shift
 constexpr double least_period = 6;
@@ -39,7 +39,7 @@ double mean_at(const std::vector<double>& values, double period, double offset) 
 }  // namespace
 
 Courses find_courses(const Image& image, Axis axis) {
-  Image small = fit_longer_side(image, longest_side);
+  Image small = fit_longer_side(image, side_looked_at);
   const Image slow = blurred(small, std::min(small.width, small.height) * slow_changes, Tile::none);
   for (std::size_t i = 0; i < small.pixels.size(); ++i) small.pixels[i] -= slow.pixels[i];
   const ShiftCorrelation self = shift_correlation(small, small);
