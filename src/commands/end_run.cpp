@@ -15,8 +15,11 @@ namespace {
 bool show_run(const std::filesystem::path& folder, ProgressBar& bar) {
   const NothingToKeep scope;
   try {
-    bar.message(fmt::format("page: {}", write_page(folder).string()));
-    return true;
+    const WrittenPage page = write_page(folder);
+    for (const std::string& trouble : page.trouble)
+      bar.complaint(fmt::format("gramloom: not on the page: {}", trouble));
+    bar.message(fmt::format("page: {}", page.file.string()));
+    return page.trouble.empty();
   } catch (const std::exception& error) {
     bar.complaint(fmt::format("gramloom: no page: {}", first_line(error.what())));
     return false;

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "commands/examples.h"
 #include "commands/option_words.h"
 #include "commands/roff.h"
 #include "jobs/key_lists.h"
@@ -79,6 +80,8 @@ std::string command_page(const CLI::App& command) {
     roff.entry(argument.names.front(), "", meaning_of(argument));
   roff.heading("OPTIONS");
   add_options(roff, options_of(command));
+  roff.heading("EXAMPLES");
+  roff.verbatim(examples_of(command.get_name()));
   roff.heading("SEE ALSO");
   roff.paragraph(fmt::format("gramloom(1), {}(5)", config_page));
   return roff.text();

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "jobs/folder_lock.h"
 #include "jobs/output_guard.h"
+#include "jobs/progress_bar.h"
 #include "jobs/run_log.h"
 #include "report/page.h"
 #include "runs/own_files.h"
@@ -33,7 +34,11 @@ ExitCode report_run(const std::string& folder) {
   } catch (const Error& error) {
     throw ConfigError("report {}: {}", folder, error.what());
   }
-  return print(write_page(gather_records(folder)).string() + "\n");
+  const WrittenPage page = write_page(gather_records(folder));
+  for (const std::string& trouble : page.trouble)
+    print_message(fmt::format("gramloom: not on the page: {}", trouble));
+  const ExitCode printed = print(page.file.string() + "\n");
+  return page.trouble.empty() ? printed : job_failed;
 }
 
 }  // namespace

@@ -170,7 +170,7 @@ class SideBySide {
     worker.process.reset();
     TaskResult stopped;
     stopped.stopped = true;
-    finish(worker, stopping_ ? stopped : failure(*worker.task, why));
+    finish(worker, stopping_ || run_.stopped() ? stopped : failure(*worker.task, why));
   }
 
   void finish(Worker& worker, const TaskResult& result) {

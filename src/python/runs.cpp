@@ -82,7 +82,8 @@ void do_jobs(const Config& config, const RunOptions& options, ProgressBar& bar, 
   const RunSummary summary = gramloom::run(config, options, bar);
   if (summary.interrupted + summary.left > 0 || summary.unscored) throw Interrupted();
   if (!options.shard) try {
-      write_page(options.output);
+      for (const std::string& trouble : write_page(options.output).trouble)
+        bar.complaint(fmt::format("not on the page: {}", trouble));
     } catch (const Error& error) {
       bar.complaint(fmt::format("no page: {}", first_line(error.what())));
     }

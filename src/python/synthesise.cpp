@@ -14,10 +14,16 @@ namespace {
 
 constexpr const char* name = "synthesise";  // of the config, in errors
 
-// Lines of a text that the user has not seen say nothing to him.
-std::string without_line(const std::string& message) {
-  static const std::regex line("synthesise:[0-9]+:[0-9]+: ");
-  return std::regex_replace(message, line, "synthesise: ", std::regex_constants::format_first_only);
+// Lines of a text that the user has not seen say nothing to him, and two of its words are not those
+// of the arguments.
+std::string of_arguments(std::string message) {
+  static const std::pair<std::regex, const char*> changes[] = {
+      {std::regex("synthesise:[0-9]+:[0-9]+: "), "synthesise: "},
+      {std::regex("'seeds'"), "'seed'"},
+      {std::regex("\\[\\[exemplar\\]\\]"), "exemplar"}};
+  for (const auto& [words, argument] : changes)
+    message = std::regex_replace(message, words, argument);
+  return message;
 }
 
 // What `check` says of a job, and a run before it begins one.
@@ -49,7 +55,7 @@ Prepared prepare(const std::string& text, PicturesInMemory::Pictures pictures) {
     prepared.loaded = load_request(prepared.config, only_job(prepared.config).exemplar);
     return prepared;
   } catch (const ConfigError& error) {
-    throw ConfigError("{}", without_line(error.what()));
+    throw ConfigError("{}", of_arguments(error.what()));
   } catch (const Error& error) {
     throw ConfigError("{}: {}", name, error.what());
   }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "runs/run_folder.h"
 
@@ -12,10 +13,15 @@ namespace gramloom {
 /// data's texts hold, it stays data.
 std::string page_html(const nlohmann::ordered_json& data);
 
-/// Writes folder/index.html, and previews in folder/page, from what a run has left in the folder;
-/// returns the page's path. Throws Error.
-std::filesystem::path write_page(const std::filesystem::path& folder);
+struct WrittenPage {
+  std::filesystem::path file;
+  std::vector<std::string> trouble;  // what it could not show and why, a line each
+};
+
+/// Writes folder/index.html, and previews in folder/page, from what a run has left in the folder.
+/// Throws Error.
+WrittenPage write_page(const std::filesystem::path& folder);
 /// The same of a run that has been read.
-std::filesystem::path write_page(const RunOnDisk& run);
+WrittenPage write_page(const RunOnDisk& run);
 
 }  // namespace gramloom

@@ -224,6 +224,16 @@ TEST_F(CommandLine, ReportWritesThePageOfARunAgain) {
   }
 }
 
+TEST_F(CommandLine, APageThatLacksAPictureIsNoFullSuccess) {
+  run({"run", "c.toml", "--quiet"});
+  fs::remove(folder_ / "out/c/e/q/seed2.png");
+  const Outcome outcome = run({"report", "out/c"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("not on the page: "), std::string::npos) << outcome.errors;
+  EXPECT_EQ(outcome.output, "out/c/index.html\n") << "all else is";
+}
+
 TEST_F(CommandLine, ListNamesMethodsPatternsAndTheirParameters) {
   const Outcome all = run({"list"});
   EXPECT_EQ(all.exit_code, 0);

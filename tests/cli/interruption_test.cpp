@@ -97,6 +97,19 @@ TEST_F(Interruption, NohupIsObeyed) {
   EXPECT_THAT(outcome.output, testing::ContainsRegex("before: [0-7] of 8"));
 }
 
+// As a service manager or a scheduler ends a run: its workers are told too, by both.
+TEST_F(Interruption, ASignalToEveryProcessOfARunIsNoFailureOfItsJobs) {
+  write_long_config();
+  const Outcome outcome =
+      shell(folder_,
+            "$GRAMLOOM run long.toml --jobs 2 --set 'seeds=[1,2]' --only 'e/long' & run=$!; "
+            "while ! test -e out/long/e/long/seed2.json; do sleep 0.01; done; sleep 0.2; "
+            "kill -TERM $(cat /proc/$run/task/*/children) $run; wait $run");
+  EXPECT_EQ(outcome.exit_code, 130) << outcome.errors;
+  for (const std::string job : {"e/long/seed1", "e/long/seed2"})
+    EXPECT_EQ(record(job, "out/long")->status, Status::interrupted) << job;
+}
+
 TEST_F(Interruption, AKilledJobIsNotCalledDone) {
   write_long_config();
   Process process(folder_, {"run", "long.toml"});

@@ -79,6 +79,28 @@ TEST_F(Manual, NamesEveryCommandAndEveryOption) {
   EXPECT_EQ(run({"manual", "gramloom-frob"}).exit_code, 2);
 }
 
+// Those of --help, which are those of the manual.
+TEST_F(Manual, ExamplesUseOptionsThatThereAre) {
+  for (const std::string& command : commands()) {
+    const std::string page = output_of({"manual", "gramloom-" + command});
+    const std::set<std::string> known = options(command);
+    const std::string help = output_of({command, "--help"});
+    std::istringstream lines(help.substr(std::min(help.find("\nExamples:\n"), help.size())));
+    int examples = 0;
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t begin = line.find("gramloom ");
+      if (begin == std::string::npos) continue;
+      ++examples;
+      EXPECT_THAT(line.substr(begin), testing::StartsWith("gramloom " + command + " "));
+      EXPECT_THAT(page, HasSubstr(roff(line.substr(2))));
+      std::istringstream words(line);
+      for (std::string word; words >> word;)
+        EXPECT_TRUE(!word.starts_with("--") || known.contains(word)) << line;
+    }
+    EXPECT_GT(examples, 0) << command;
+  }
+}
+
 TEST_F(Manual, ExplainsEveryKeyOfTheConfig) {
   const std::string page = output_of({"manual", "gramloom-config"});
   for (const auto& [heading, list] : all_lists()) {
