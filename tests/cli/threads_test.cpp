@@ -60,6 +60,13 @@ TEST_F(FewThreads, AffinityIsCounted) {
   EXPECT_EQ(threads_of_run(), "1");
 }
 
+TEST_F(FewThreads, NoLibraryComplainsOfMoreThreadsThanCores) {
+  const Outcome outcome =
+      shell(folder_, "\"$GRAMLOOM\" run n.toml --quiet --only e/q --threads $(( $(nproc) * 8 ))");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.errors, "");
+}
+
 TEST_F(FewThreads, ThreadsThatTheSystemRefusesAreDoneWithout) {
   // Each thread has a stack of its own: 200 of 64 MB do not fit, nor 16 of LibTorch's, of OpenMP's
   // and of our own.
