@@ -121,6 +121,12 @@ std::uint16_t port_of(const std::string& meeting) {
   return error == std::errc() && stopped == end ? port : std::uint16_t{0};
 }
 
+// LibTorch 2 would meet by libuv, which Debian 13's was built without; LibTorch 1 knows none.
+template <class Options>
+void meet_by_plain_sockets(Options& options) {
+  if constexpr (requires { options.useLibUV; }) options.useLibUV = false;
+}
+
 Store open_store(const GroupPlace& place) {
   const std::uint16_t port = port_of(place.meeting);
   if (port == 0) {
@@ -134,6 +140,7 @@ Store open_store(const GroupPlace& place) {
   options.numWorkers = static_cast<std::size_t>(place.size);
   options.waitWorkers = false;
   options.timeout = place.patience;
+  meet_by_plain_sockets(options);
   return c10::make_intrusive<c10d::TCPStore>(place.meeting.substr(0, place.meeting.rfind(':')),
                                              options);
 }

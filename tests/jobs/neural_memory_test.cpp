@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(
                    {160, 160},
                    {500, 400},
                    3,
-                   1.9,
+                   2.2,  // with LibTorch 2.6, which takes less than 1.13
                    [](NeuralParams& p) {
                      p.spectrum_weight = p.autocorrelation_weight = p.variation_weight = 1;
                    }},
