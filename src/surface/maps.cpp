@@ -27,7 +27,8 @@ std::map<std::string, Image> maps_of_height(const Image& height, const MapParams
     maps["occlusion"] = ambient_occlusion(height, params.strength, params.occlusion_radius,
                                           params.occlusion_lines, wraps);
   if (params.curvature)
-    maps["curvature"] = curvature(height, params.strength, params.curvature_radius, wraps);
+    maps["curvature"] =
+        curvature(height, params.strength, params.curvature_radius, params.curvature_scale, wraps);
   return maps;
 }
 

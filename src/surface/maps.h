@@ -27,6 +27,7 @@ struct MapParams {
   int occlusion_radius = 32;
   int occlusion_lines = 8;
   double curvature_radius = 4;
+  double curvature_scale = 2;
 
   friend bool operator==(const MapParams&, const MapParams&) = default;
 
@@ -56,6 +57,12 @@ struct MapParams {
               "of the ball whose top is white",
               "pixels",
               {1e-3, 1e5}},
+        Field{"curvature_scale",
+              &M::curvature_scale,
+              "of the details that the curvature map leaves out: the deviation of a Gaussian that "
+              "the height is weighted by first",
+              "pixels",
+              {0, 100}},
     };
   }
 };

@@ -8,6 +8,7 @@
 #include "core/neighbour.h"
 #include "core/portable_math.h"
 #include "core/threads.h"
+#include "signal/blur.h"
 #include "surface/relief.h"
 
 namespace gramloom {
@@ -164,12 +165,14 @@ Image ambient_occlusion(const Image& height, double strength, int radius, int li
   return seen;
 }
 
-Image curvature(const Image& height, double strength, double radius, Tile wraps) {
+Image curvature(const Image& height, double strength, double radius, double scale, Tile wraps) {
   check_height(height);
   if (!(radius > 0)) throw Error("radius = {}: allowed are numbers above 0", radius);
-  const auto scale = static_cast<float>(radius);
+  if (!(scale >= 0)) throw Error("scale = {}: allowed are numbers from 0", scale);
+  const auto top = static_cast<float>(radius);
+  const Image smooth = scale > 0 ? blurred(height, scale, wraps) : height;
   Image map(height.size(), 1);
-  for_each_ground_row(height, strength, wraps, [&](int y, const GroundRows& ground) {
+  for_each_ground_row(smooth, strength, wraps, [&](int y, const GroundRows& ground) {
     const float *a = ground.above, *h = ground.here, *b = ground.below;
     for (int x = 0; x < height.width; ++x) {
       const float hx = (h[x + 1] - h[x - 1]) / 2, hy = (b[x] - a[x]) / 2;
@@ -178,7 +181,7 @@ Image curvature(const Image& height, double strength, double radius, Tile wraps)
       const float base = 1 + hx * hx + hy * hy;
       const float mean = ((1 + hy * hy) * hxx - 2 * hx * hy * hxy + (1 + hx * hx) * hyy) /
                          (2 * base * std::sqrt(base));
-      *map.at(x, y) = std::clamp(0.5f - mean * scale / 2, 0.0f, 1.0f);
+      *map.at(x, y) = std::clamp(0.5f - mean * top / 2, 0.0f, 1.0f);
     }
   });
   return map;

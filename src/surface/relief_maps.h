@@ -22,6 +22,8 @@ Image ambient_occlusion(const Image& height, double strength, int radius, int li
 /// pixels is white, a cylinder of that radius 3/4.
 ///   H = ((1 + h_y²) h_xx − 2 h_x h_y h_xy + (1 + h_x²) h_yy) / (2 (1 + h_x² + h_y²)^(3/2))
 /// with central differences; beyond edges that do not wrap the ground goes on with its slope.
-Image curvature(const Image& height, double strength, double radius, Tile wraps);
+/// `scale` > 0: of the heights weighted by a Gaussian of that deviation, in pixels. Without it the
+/// grain of most materials is sharper than any radius, and black and white.
+Image curvature(const Image& height, double strength, double radius, double scale, Tile wraps);
 
 }  // namespace gramloom

@@ -22,7 +22,7 @@ TEST(MapsOfHeight, AreThoseAskedForAsTheyStandInFiles) {
   EXPECT_EQ(maps.at("normal"),
             normals_to_colours(normals_from_height(height, 8, Tile::both), GreenAxis::down));
   EXPECT_EQ(maps.at("occlusion"), ambient_occlusion(height, 8, 32, 8, Tile::both));
-  EXPECT_EQ(maps.at("curvature"), curvature(height, 8, 4, Tile::both));
+  EXPECT_EQ(maps.at("curvature"), curvature(height, 8, 4, 2, Tile::both));
   params.strength = 0;
   EXPECT_THROW(maps_of_height(height, params, Tile::both), ConfigError);
 }

@@ -91,25 +91,34 @@ TEST(Curvature, OfABallACylinderAndTheirHollows) {
     });
     // A ball has the same curvature all over it, not at its top alone.
     for (const int x : {5, 15, 25}) {
-      EXPECT_NEAR(*curvature(ball, 1, radius / 2, Tile::none).at(x, 15), 0.5 + side * 0.25, 1e-3);
-      EXPECT_NEAR(*curvature(cylinder, 1, radius, Tile::none).at(x, 15), 0.5 + side * 0.25, 1e-3);
+      EXPECT_NEAR(*curvature(ball, 1, radius / 2, 0, Tile::none).at(x, 15), 0.5 + side * 0.25,
+                  1e-3);
+      EXPECT_NEAR(*curvature(cylinder, 1, radius, 0, Tile::none).at(x, 15), 0.5 + side * 0.25,
+                  1e-3);
     }
   }
 }
 
 TEST(Curvature, ARampIsFlatUpToItsEdges) {
   const Image ramp = height_of({9, 7}, [](double x, double y) { return 0.5 * x - 2 * y; });
-  for (const float value : curvature(ramp, 3, 10, Tile::none).pixels) ASSERT_NEAR(value, 0.5, 1e-5);
+  for (const float value : curvature(ramp, 3, 10, 0, Tile::none).pixels)
+    ASSERT_NEAR(value, 0.5, 1e-5);
 }
 
 TEST(Curvature, LooksAcrossEdgesThatWrap) {
   const Image wave =
       height_of({16, 16}, [](double x, double) { return std::cos(2 * std::numbers::pi * x / 16); });
-  const Image map = curvature(wave, 1, 2, Tile::both);
+  const Image map = curvature(wave, 1, 2, 0, Tile::both);
   EXPECT_GT(*map.at(0, 3), 0.55f);
   EXPECT_FLOAT_EQ(*map.at(1, 3), *map.at(15, 3));
-  EXPECT_THROW(curvature(Image({4, 4}, 2), 1, 1, Tile::none), Error);
-  EXPECT_THROW(curvature(wave, 1, 0, Tile::none), Error);
+  // A Gaussian of deviation s takes exp(−(s k)² / 2) off a wave of frequency k.
+  const double k = 2 * std::numbers::pi / 16;
+  EXPECT_NEAR((*curvature(wave, 0.01, 2, 3, Tile::both).at(0, 3) - 0.5) /
+                  (*curvature(wave, 0.01, 2, 0, Tile::both).at(0, 3) - 0.5),
+              std::exp(-9 * k * k / 2), 1e-3);
+  EXPECT_THROW(curvature(wave, 1, 1, -1, Tile::both), Error);
+  EXPECT_THROW(curvature(Image({4, 4}, 2), 1, 1, 0, Tile::none), Error);
+  EXPECT_THROW(curvature(wave, 1, 0, 0, Tile::none), Error);
 }
 
 }  // namespace
