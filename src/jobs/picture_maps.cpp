@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/error.h"
+#include "io/image_file.h"
 #include "io/json_fields.h"
 #include "jobs/machine.h"
 #include "jobs/protected_files.h"
@@ -115,12 +117,20 @@ void note_guesses(MadeMaps& made, const std::string& name, const std::string& fi
   if (name == "roughness") made.notes.push_back(file + ": guessed from the guessed height");
 }
 
+ImageFile read_named(const fs::path& picture) {
+  try {
+    return read_image(picture);
+  } catch (const Error& error) {
+    throw ConfigError("{}", error.what());
+  }
+}
+
 }  // namespace
 
 MadeMaps make_maps(const MapWork& work) {
   const std::vector<std::string> names = names_of_maps(work);
   const fs::path folder = work.output.empty() ? work.picture.parent_path() : work.output;
-  const ImageFile picture = read_image(work.picture);
+  const ImageFile picture = read_named(work.picture);
   MadeMaps made;
   std::vector<OutputFormat> formats;
   try {

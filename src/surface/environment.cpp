@@ -56,10 +56,16 @@ constexpr int strip[6][2]{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}};
 constexpr int wide_cross[6][2]{{2, 1}, {0, 1}, {1, 0}, {1, 2}, {3, 1}, {1, 1}};
 constexpr int tall_cross[6][2]{{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 3}, {1, 1}};
 
+// Of one face.
+int sky_box_side(const Image& picture) {
+  if (picture.width == 6 * picture.height) return picture.height;
+  return picture.width / (picture.height > picture.width ? 3 : 4);
+}
+
 Vec3 in_sky_box(const Image& picture, const Vec3& direction) {
   const bool is_strip = picture.width == 6 * picture.height;
   const bool tall = picture.height > picture.width;
-  const int side = is_strip ? picture.height : picture.width / (tall ? 3 : 4);
+  const int side = sky_box_side(picture);
   BoxPoint point = sky_box_of(direction);
   if (tall && point.face == 4) point.at = {1 - point.at.u, 1 - point.at.v};
   const auto& places = is_strip ? strip : tall ? tall_cross : wide_cross;
@@ -155,7 +161,9 @@ Image sky_box_strip(std::span<const Image> faces) {
 Image latlong_picture(const Image& picture, EnvironmentKind kind) {
   if (kind == EnvironmentKind::automatic) kind = kind_of(picture);
   check_proportions(picture, kind);
-  const int height = std::clamp(picture.height, 64, 2048);
+  // As fine at the horizon as the picture there: a face of a sky box covers a quarter of it.
+  const int finest = kind == EnvironmentKind::sky_box ? 2 * sky_box_side(picture) : picture.height;
+  const int height = std::clamp(finest, 64, 2048);
   switch (kind) {
     case EnvironmentKind::mirror_ball:
       return latlong_image(height,

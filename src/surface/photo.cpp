@@ -108,6 +108,15 @@ void check_convex(const std::vector<cv::Point2f>& corners) {
   }
 }
 
+// They may lie on the picture's edges, but not beyond.
+void check_inside(const std::vector<cv::Point2f>& corners, const Image& photo) {
+  for (const cv::Point2f& corner : corners)
+    if (!(corner.x >= 0 && corner.y >= 0 && corner.x <= static_cast<float>(photo.width) &&
+          corner.y <= static_cast<float>(photo.height)))
+      throw ConfigError("corners: {:g},{:g} is outside the picture of {}×{} pixels", corner.x,
+                        corner.y, photo.width, photo.height);
+}
+
 }  // namespace
 
 Image set_right(const Image& photo, const std::vector<double>& corners,
@@ -120,6 +129,7 @@ Image set_right(const Image& photo, const std::vector<double>& corners,
   std::vector<cv::Point2f> from;
   for (std::size_t i = 0; i < 8; i += 2)
     from.emplace_back(static_cast<float>(corners[i]), static_cast<float>(corners[i + 1]));
+  check_inside(from, photo);
   check_convex(from);
   const auto side = [&](std::size_t a, std::size_t b) { return cv::norm(from[a] - from[b]); };
   const auto rounded = [](double length) {

@@ -30,6 +30,16 @@ void check_period(double period, int places, int length, std::string_view way) {
         period, way, length, places, places);
 }
 
+// A period that leaves one place for every piece would only repeat the picture.
+void check_choice(const TilingLattice::Shape& shape, Size places) {
+  const bool periodic = shape.period_x > 1 || shape.period_y > 1;
+  if (periodic && places.width < 2 * shape.period_x && places.height < 2 * shape.period_y)
+    throw Error(
+        "period = {},{}: every piece would be from the same place of the picture of {}×{} pixels, "
+        "which would only be repeated; choose a shorter period, or a larger picture",
+        shape.period_x, shape.period_y, shape.exemplar.width, shape.exemplar.height);
+}
+
 // A random whole number from `least` on, of `count`, that is a multiple of `period`, rounded.
 double random_shift(double least, int count, double period, Random& random) {
   const double first = std::ceil(least / period), last = std::floor((least + count - 1) / period);
@@ -61,6 +71,7 @@ TilingLattice::TilingLattice(const Shape& shape, Random random)
   if (shape.rotation > 0) return;
   check_period(shape.period_x, places().width, piece_width(), "across");
   check_period(shape.period_y, places().height, piece_height(), "down");
+  check_choice(shape, places());
 }
 
 double TilingLattice::piece_radius() const {

@@ -88,6 +88,8 @@ TEST(Environment, EveryKindBecomesLatitudeAndLongitude) {
     return normalised(faces[face]);
   });
   expect_directions(latlong_picture(strip, EnvironmentKind::automatic), 0.999f);
+  EXPECT_EQ(latlong_picture(strip, EnvironmentKind::automatic).height, 2 * 64)
+      << "as fine as the faces are";
   const Image cross = picture_of(256, 192, [](float u, float v) {
     const float x = u * 4, y = (1 - v) * 3;
     const float a = 2 * (x - std::floor(x)) - 1, b = 1 - 2 * (y - std::floor(y));

@@ -137,6 +137,9 @@ TEST(Photo, CornersAndSizesThatAreNoneAreRefused) {
       << "the other way round";
   EXPECT_THROW(set_right(photo, {0, 0, 9, 0, 2, 2, 0, 9}, {}), ConfigError) << "not convex";
   EXPECT_THROW(set_right(photo, {0, 0, 9, 0, 9, 9, 0, 9}, {4}), ConfigError);
+  EXPECT_THROW(set_right(photo, {0, 0, 21, 0, 9, 9, 0, 9}, {}), ConfigError) << "outside";
+  EXPECT_THROW(set_right(photo, {0, -1, 9, 0, 9, 9, 0, 9}, {}), ConfigError) << "outside";
+  EXPECT_NO_THROW(set_right(photo, {0, 0, 20, 0, 20, 20, 0, 20}, {}));
   PhotoParams params;
   params.light_scale = 0;
   EXPECT_THROW(material_from_photo(photo, params), ConfigError);

@@ -330,14 +330,20 @@ TEST(Tiling, RefusesPeriodsAndCellsThatLeavePiecesNoChoice) {
     return made;
   };
   // Sides of 8: pieces of 17 × 14 pixels, 16 × 27 places.
-  EXPECT_EQ(refusal({.period = {16, 27}}), "");
+  EXPECT_EQ(refusal({.period = {8, 27}}), "");
+  EXPECT_EQ(refusal({.period = {16, 13}}), "");
+  EXPECT_THAT(refusal({.period = {16, 27}}),
+              testing::HasSubstr("every piece would be from the same place"));
   EXPECT_EQ(refusal({.period = {17, 8}}),
             "period = 17 across: pieces of 17 pixels have only 16 places that way, so no multiple "
             "fits some of them; choose a smaller cell or a period up to 16");
   EXPECT_THAT(refusal({.period = {8, 28}}), testing::HasSubstr("period = 28 down: pieces of 14"));
   EXPECT_EQ(refusal({.period = {14.5, 8}}), "");
   EXPECT_NE(refusal({.period = {15.5, 8}}), "") << "rounded, 16 apart and one more";
-  EXPECT_EQ(refusal({.wraps = Tile::both, .period = {32, 40}}), "");
+  EXPECT_EQ(refusal({.wraps = Tile::both, .period = {32, 20}}), "");
+  EXPECT_EQ(refusal({.wraps = Tile::both, .period = {32, 40}}),
+            "period = 32,40: every piece would be from the same place of the picture of 32×40 "
+            "pixels, which would only be repeated; choose a shorter period, or a larger picture");
   EXPECT_EQ(refusal({.cell = 0.45}), "");
   EXPECT_EQ(refusal({.cell = 0.5, .wraps = Tile::both}), "");
   EXPECT_EQ(refusal({.cell = 0.5}), "") << "it is higher than wide";
