@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/size_option.h"
 #include "commands/usage.h"
 #include "io/field_values.h"
 
@@ -59,23 +60,16 @@ CLI::Validator range_of(const Range& range) {
           ""};
 }
 
-// "512", or "512,384": width and height.
 inline CLI::Option* add_size(CLI::App& command, const std::string& option, Size& value,
                              const Range& range, const std::string& meaning) {
   return command
-      .add_option_function<std::vector<int>>(
+      .add_option_function<std::string>(
           option,
-          [&value, option](const std::vector<int>& sides) {
-            if (sides.size() > 2)
-              throw CLI::ValidationError(option, "takes one number for both sides, or two");
-            value = {sides.front(), sides.back()};
+          [&value, option, range](const std::string& text) {
+            value = size_of(option, text, static_cast<int>(range.max));
           },
-          fmt::format("{}; {},{}", meaning, value.width, value.height))
-      ->delimiter(',')
-      ->expected(1, 2)
-      ->allow_extra_args(false)
-      ->check(range_of<int>(range))
-      ->type_name("");
+          fmt::format("{}; {}x{}", meaning, value.width, value.height))
+      ->type_name(size_notation);
 }
 
 // Repeated, each time with one file.

@@ -4,6 +4,8 @@
 #include "jobs/preview_files.h"
 #include "jobs/solid_texture.h"
 #include "runs/map_names.h"
+#include "surface/mesh_file.h"
+#include "surface/preview_mapping.h"
 
 namespace gramloom {
 
@@ -58,6 +60,18 @@ Named<fs::path> preview_files(const Config& config) {
   return files;
 }
 
+void check_preview_files(const Config& config) {
+  if (preview_files(config).empty()) return;
+  const PreviewParams& params = *config.preview;
+  try {
+    if (!params.shape.is_name()) make_mapping(params, read_mesh(params.shape));
+    if (const Image around = read_environment(params); !around.empty())
+      latlong_picture(around, params.environment_kind);
+  } catch (const Error& error) {
+    throw ConfigError("{}: preview: {}", config.file.string(), error.what());
+  }
+}
+
 Named<std::string> preview_hashes(const Config& config, FileHashes& hashes) {
   Named<std::string> result;
   for (const auto& [key, file] : preview_files(config)) result.push_back({key, hashes.of(file)});
@@ -74,9 +88,12 @@ std::string write_preview(const fs::path& folder, const std::string& name, const
     const PreviewMaterial material = material_of(config, shown);
     if (auto now = preview_hashes(config, hashes); !environment.image || environment.hashes != now)
       environment = {std::move(now), read_environment(params)};
-    const Image rendered = render_preview(params, {&material, 1}, *environment.image, control);
+    const RenderedPreview rendered =
+        render_preview(params, {&material, 1}, *environment.image, control);
     const std::string file = name + "_preview.png";
-    write_image(folder / file, shown_preview(params, rendered), {});
+    write_image(folder / file, shown_preview(params, rendered.picture), {});
+    for (const std::string& note : rendered.notes)
+      notes.push_back(fmt::format("preview: {}", note));
     return file;
   } catch (const Interrupted&) {
     throw;

@@ -16,6 +16,10 @@ namespace gramloom {
 /// The files that the config's [preview] reads, by their keys: the surroundings, a mesh.
 Named<std::filesystem::path> preview_files(const Config& config);
 
+/// Reads them as a preview will. Throws ConfigError for what no preview can use: `check` and `run`
+/// say it before the first job.
+void check_preview_files(const Config& config);
+
 /// Their hashes.
 Named<std::string> preview_hashes(const Config& config, FileHashes& hashes);
 

@@ -57,9 +57,9 @@ std::vector<TextureFiles> grouped(const std::vector<std::string>& images) {
 }
 
 // Maps that lie beside a picture under its name.
-void find_beside(TextureFiles& texture, std::vector<std::string>& used) {
+void find_beside(TextureFiles& texture, std::string_view left_out, std::vector<std::string>& used) {
   for (const std::string_view name : preview_maps) {
-    if (texture.maps.contains(std::string(name))) continue;
+    if (texture.maps.contains(std::string(name)) || name == left_out) continue;
     const std::string own = texture.picture.extension().string();
     for (const std::string_view extension : {std::string_view(own), ".png"sv, ".exr"sv, ".tif"sv}) {
       fs::path file = texture.picture;
@@ -115,6 +115,8 @@ void check_output(const PreviewWork& work, const std::vector<TextureFiles>& text
   }
 }
 
+bool is_bumped(const PreviewParams& params) { return params.bump != PreviewParams{}.bump; }
+
 bool is_name(const std::string& image) { return FileOrName(image).is_name(); }
 
 // What is given must have an effect.
@@ -132,6 +134,25 @@ void check_use(const PreviewWork& work) {
   if (!work.images.empty() && is_name(work.images.front()))
     throw ConfigError("--map {}: has no effect on the procedural texture '{}', which has its own",
                       map, work.images.front());
+}
+
+// What is given must have an effect: also a relief, which needs heights, and normals, which need
+// that there is none.
+void check_relief(const PreviewWork& work, const std::vector<TextureFiles>& textures) {
+  const PreviewParams& params = work.params;
+  for (const TextureFiles& texture : textures) {
+    const auto normal = texture.maps.find("normal");
+    if (normal != texture.maps.end() && (params.displacement != 0 || is_bumped(params)))
+      throw ConfigError(
+          "{}: normals have no effect where heights are displaced (--displacement) or bumped "
+          "(--bump): leave one of them out",
+          normal->second.string());
+  }
+  if (!is_bumped(params) || textures.empty()) return;
+  const TextureFiles& first = textures.front();
+  if (!is_name(first.picture.string()) && !first.maps.contains("height"))
+    throw ConfigError("bump = {}: {} has no map 'height'", params.bump,
+                      first.picture.empty() ? "the surface" : first.picture.string());
 }
 
 // In place of what was found.
@@ -167,13 +188,18 @@ Image render(const PreviewWork& work, const fs::path& output, std::vector<std::s
   if (work.params.mapping != Mapping::solid ||
       std::all_of(work.images.begin(), work.images.end(), is_name))
     textures = grouped(work.images);
+  // Normals would take the place of the relief that is asked for.
+  const bool relief = work.params.displacement != 0 || is_bumped(work.params);
   for (TextureFiles& texture : textures)
-    if (!is_name(texture.picture.string())) find_beside(texture, used);
+    if (!is_name(texture.picture.string())) find_beside(texture, relief ? "normal" : "", used);
   if (work.images.empty()) textures.emplace_back();  // of one colour
   if (!textures.empty()) add_named_maps(textures.front(), work.maps);
+  check_relief(work, textures);
   check_output(work, textures, output);
-  return render_preview(work.params, read_materials(work, textures), read_environment(work.params),
-                        control);
+  RenderedPreview rendered = render_preview(work.params, read_materials(work, textures),
+                                            read_environment(work.params), control);
+  used.insert(used.end(), rendered.notes.begin(), rendered.notes.end());
+  return std::move(rendered.picture);
 }
 
 }  // namespace
@@ -203,7 +229,8 @@ PreviewFile make_preview(const PreviewWork& work, const fs::path& output, const 
   } catch (const Error& error) {
     throw ConfigError("{}", error.what());
   }
-  write_image(output, shown_preview(work.params, rendered), {});
+  const Shown as = output.extension() == ".exr" ? Shown::light : Shown::colours;
+  write_image(output, shown_preview(work.params, rendered, as), {});
   return result;
 }
 

@@ -85,6 +85,9 @@ void settle_texture(RunState& state, const PlannedJob& planned, const TaskResult
   count_outcome(state.summary, record.status);
   const std::string text = outcome(planned, record);
   record.status == Status::failed ? bar.complaint(text) : bar.message(text);
+  for (const std::string& note : record.notes)  // once: the next seed has the same
+    if (state.noted.insert(note).second)
+      bar.message(fmt::format("note: {}: {}", planned.name, note));
   put_down(state, planned, record);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <set>
+#include <string>
 
 #include "jobs/run_log.h"
 #include "jobs/runner.h"
@@ -13,6 +15,7 @@ struct RunState {
   Run& run;
   RunLog& log;
   RunSummary& summary;
+  std::set<std::string> noted = {};  // of notes in records, those that were told
 };
 
 /// The record of a job that --resume finds finished, and what an unfinished attempt left of it is

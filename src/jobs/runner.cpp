@@ -6,6 +6,7 @@
 #include "core/threads.h"
 #include "jobs/folder_lock.h"
 #include "jobs/interruption.h"
+#include "jobs/job_preview.h"
 #include "jobs/one_job.h"
 #include "jobs/output_guard.h"
 #include "jobs/run_state.h"
@@ -21,6 +22,7 @@ namespace fs = std::filesystem;
 
 Plan look_ahead(const Config& config, const RunOptions& options) {
   const NothingToKeep scope;
+  check_preview_files(config);
   Plan plan = make_plan(config, options.only);
   if (options.shard) select_shard(plan, *options.shard);
   if (options.group) estimate_together(config, plan, options.group->size());

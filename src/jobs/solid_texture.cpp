@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <tuple>
 
+#include "core/error.h"
 #include "jobs/method_reader.h"
 #include "surface/maps.h"
 #include "surface/shading.h"
@@ -42,6 +44,15 @@ PreviewMaterial procedural_material(const std::string& name, const std::vector<s
   const Random random(1);
   PreviewMaterial material;
   if (solid) {
+    const ProceduralParams usual;
+    for (const auto& [key, value, otherwise] : {std::tuple{"depth", params.depth, usual.depth},
+                                                {"tilt", params.tilt, usual.tilt},
+                                                {"turn", params.turn, usual.turn}})
+      if (value != otherwise)
+        throw ConfigError(
+            "--set {}: has no effect on a solid, which the shape cuts; --pole, --seam "
+            "and --mapping-origin turn and move it",
+            key);
     material.solid = solid_of(params, random);
     return material;
   }

@@ -61,6 +61,11 @@ Coordinates planar(const MappingFrame& frame, const Vec3& p) {
   return {0.5f - q.y, 0.5f + q.z, frame.y / -frame.size, frame.z / frame.size};
 }
 
+Vec3 in_solid(const MappingFrame& frame, const Vec3& p) {
+  const Vec3 q = inside(frame, p);
+  return {0.5f - q.y, 0.5f + q.z, 0.5f - q.x};
+}
+
 Coordinates cylindrical(const MappingFrame& frame, const Vec3& p) {
   const Vec3 q = inside(frame, p);
   const Turn turn = turn_of(q);

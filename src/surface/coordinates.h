@@ -42,6 +42,9 @@ Coordinates linear(const LinearMap& map, const Vec3& p);
 
 /// u = ½ − y, v = ½ + z: seen from the side that is away from the seam.
 Coordinates planar(const MappingFrame& frame, const Vec3& p);
+/// (½ − y, ½ + z, ½ − x): where in the unit cube a point of a solid lies. In the usual frame, of
+/// size 2, that of the shape's own x, y and z.
+Vec3 in_solid(const MappingFrame& frame, const Vec3& p);
 /// u = θ / 2π, and u + 1 where that is negative; v = ½ + z.
 Coordinates cylindrical(const MappingFrame& frame, const Vec3& p);
 /// u as above; v = 1 − φ / π.

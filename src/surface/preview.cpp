@@ -26,8 +26,9 @@ Image linear_picture(const Image& picture) {
   return linear;
 }
 
-Image render_preview(const PreviewParams& params, std::span<const PreviewMaterial> materials,
-                     const Image& environment, const Control& control) {
+RenderedPreview render_preview(const PreviewParams& params,
+                               std::span<const PreviewMaterial> materials, const Image& environment,
+                               const Control& control) {
   const PreviewScene scene = make_scene(params, materials, environment);
   Image picture(params.size, 4);
   const int columns = (params.size.width + block_side - 1) / block_side;
@@ -48,7 +49,7 @@ Image render_preview(const PreviewParams& params, std::span<const PreviewMateria
     });
   }
   control.step(rows, rows);
-  return picture;
+  return {std::move(picture), scene.notes};
 }
 
 Cost estimate_preview(const PreviewParams& params, Size material) {
@@ -69,16 +70,17 @@ Cost estimate_preview(const PreviewParams& params, Size material) {
                      (solid ? 0 : 8e-9 * texels * channels)}};
 }
 
-Image shown_preview(const PreviewParams& params, const Image& rendered) {
+Image shown_preview(const PreviewParams& params, const Image& rendered, Shown as) {
   const bool clear = params.background == Background::transparent;
   Image shown(rendered.size(), clear ? 4 : 3);
   for (int y = 0; y < shown.height; ++y)
     for (int x = 0; x < shown.width; ++x) {
       const float* from = rendered.at(x, y);
       float* to = shown.at(x, y);
-      // A PNG's colours are not multiplied by alpha.
+      // Colours of ours are not multiplied by alpha.
       const float alpha = clear ? std::max(from[3], 1e-6f) : 1;
-      for (int c = 0; c < 3; ++c) to[c] = srgb_from_linear(pressed(from[c] / alpha));
+      for (int c = 0; c < 3; ++c)
+        to[c] = as == Shown::light ? from[c] / alpha : srgb_from_linear(pressed(from[c] / alpha));
       if (clear) to[3] = from[3];
     }
   return shown;

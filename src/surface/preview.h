@@ -49,11 +49,21 @@ Cost estimate_preview(const PreviewParams& params, Size material);
 /// Throws ConfigError for parameters out of range, Error for maps of different sizes, an
 /// environment of other proportions, a mesh that cannot be used, a mapping that does not suit the
 /// material; Interrupted when told to stop.
-Image render_preview(const PreviewParams& params, std::span<const PreviewMaterial> materials,
-                     const Image& environment, const Control& control);
+struct RenderedPreview {
+  Image picture;
+  std::vector<std::string> notes;  // what is not shown as it is
+};
+RenderedPreview render_preview(const PreviewParams& params,
+                               std::span<const PreviewMaterial> materials, const Image& environment,
+                               const Control& control);
 
-/// Such a picture as a file shows it: sRGB, with highlights above 0.8 pressed together; without its
-/// alpha channel unless the background is transparent.
-Image shown_preview(const PreviewParams& params, const Image& rendered);
+/// How a file holds such a picture: as it is to be seen, sRGB with highlights above 0.8 pressed
+/// together, or as light, in linear values.
+enum class Shown { colours, light };
+
+/// Such a picture as a file holds it; without its alpha channel unless the background is
+/// transparent.
+Image shown_preview(const PreviewParams& params, const Image& rendered,
+                    Shown shown = Shown::colours);
 
 }  // namespace gramloom

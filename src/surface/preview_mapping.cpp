@@ -1,6 +1,7 @@
 #include "surface/preview_mapping.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "core/error.h"
 
@@ -15,6 +16,24 @@ void check_pair(std::string_view name, const std::vector<double>& list) {
 MappingFrame make_frame(const PreviewParams& p) {
   return mapping_frame(vector_of("mapping_origin", p.mapping_origin), vector_of("pole", p.pole),
                        vector_of("seam", p.seam), static_cast<float>(p.mapping_size));
+}
+
+// What places a mapping must have one to place.
+void check_effects(const PreviewParams& p) {
+  const PreviewParams usual;
+  const bool framed = p.mapping != Mapping::own && p.mapping != Mapping::linear;
+  const bool linear = p.mapping == Mapping::linear;
+  for (const auto& [name, set, has_effect] :
+       {std::tuple{"mapping_size", p.mapping_size != usual.mapping_size, framed},
+        {"mapping_origin", p.mapping_origin != usual.mapping_origin, framed || linear},
+        {"pole", p.pole != usual.pole, framed},
+        {"seam", p.seam != usual.seam, framed},
+        {"u_axis", p.u_axis != usual.u_axis, linear},
+        {"v_axis", p.v_axis != usual.v_axis, linear},
+        {"cone_angle", p.cone_angle != usual.cone_angle, p.mapping == Mapping::conical},
+        {"repeat", !p.repeat.empty(), p.mapping != Mapping::solid}})
+    if (set && !has_effect)
+      throw ConfigError("{}: has no effect with mapping = \"{}\"", name, to_word(p.mapping));
 }
 
 }  // namespace
@@ -60,6 +79,7 @@ void check_preview(const PreviewParams& p) {
     throw ConfigError("bend = {}: only the tube bends, not '{}'", p.bend, p.shape.string());
   make_frame(p);
   linear_map({}, vector_of("u_axis", p.u_axis), vector_of("v_axis", p.v_axis));
+  check_effects(p);
   if (p.mapping == Mapping::solid && p.displacement != 0)
     throw ConfigError("displacement = {}: a solid has no height map to displace it",
                       p.displacement);

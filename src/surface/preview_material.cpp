@@ -63,10 +63,11 @@ void check_material(const PreviewMaterial& material) {
 }
 
 MaterialLookup::MaterialLookup(const PreviewParams& params, const PreviewMaterial& material,
-                               Vec2 repeat)
+                               Vec2 repeat, const MappingFrame& frame)
     : params_(params),
       material_(material),
       repeat_(repeat),
+      frame_(frame),
       colour_(linear_colour(params.colour)),
       outside_colour_(linear_colour(params.outside_colour)) {
   check_material(material);
@@ -175,10 +176,9 @@ void MaterialLookup::look_up(std::span<SurfacePoint*> points) const {
   }
   if (params_.mapping == Mapping::solid) {
     std::vector<Vec3> places(points.size()), colours(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i)
-      places[i] = (points[i]->place + Vec3{1, 1, 1}) * 0.5f;
+    for (std::size_t i = 0; i < points.size(); ++i) places[i] = in_solid(frame_, points[i]->place);
     if (material_.solid) {
-      const float width = points.empty() ? 0 : 0.5f * length(points.front()->across);
+      const float width = points.empty() ? 0 : length(points.front()->across) / frame_.size;
       material_.solid(places, width, colours);
     } else {
       for (std::size_t i = 0; i < points.size(); ++i)

@@ -24,7 +24,8 @@ struct SurfacePoint {
 /// A material made ready: its pictures in one, so that a point needs one lookup.
 class MaterialLookup {
  public:
-  MaterialLookup(const PreviewParams& params, const PreviewMaterial& material, Vec2 repeat);
+  MaterialLookup(const PreviewParams& params, const PreviewMaterial& material, Vec2 repeat,
+                 const MappingFrame& frame);
 
   /// Fills material, bumped and occlusion of the points.
   void look_up(std::span<SurfacePoint*> points) const;
@@ -44,6 +45,7 @@ class MaterialLookup {
   const PreviewParams& params_;
   const PreviewMaterial& material_;
   Vec2 repeat_;
+  MappingFrame frame_;            // of a solid
   Vec3 colour_, outside_colour_;  // the params', linear
   Channels channels_;
   int count_ = 0;

@@ -51,15 +51,21 @@ void add_materials(PreviewScene& scene, std::span<const PreviewMaterial> materia
   for (const PreviewMaterial& material : materials) {
     const Vec2 repeat = repeats(p, scene.mapping, size_of(material));
     if (!p.stochastic) {
-      scene.materials.emplace_back(p, material, repeat);
+      scene.materials.emplace_back(p, material, repeat, scene.mapping.frame);
       continue;
     }
     const double longest =
         cover_pixels * std::max(p.size.width, p.size.height) * std::max(1.0, p.zoom);
     const Random random = Random(1).stream(scene.covers.size());
-    scene.covers.push_back(covered(material, repeat, p.stochastic_rotation,
-                                   static_cast<int>(std::min(longest, 65536.0)), random));
-    scene.materials.emplace_back(p, scene.covers.back(), Vec2{1, 1});
+    Cover cover = covered(material, repeat, p.stochastic_rotation,
+                          static_cast<int>(std::min(longest, 65536.0)), random);
+    if (cover.lost < 1)
+      scene.notes.push_back(
+          fmt::format("stochastic: at {:.0f} % of the texture's resolution, for want of memory: "
+                      "fewer repeats keep more",
+                      100 * cover.lost));
+    scene.covers.push_back(std::move(cover.material));
+    scene.materials.emplace_back(p, scene.covers.back(), Vec2{1, 1}, scene.mapping.frame);
   }
 }
 
@@ -135,7 +141,7 @@ PreviewScene make_scene(const PreviewParams& params, std::span<const PreviewMate
   if (materials.empty() || materials.size() > 2)
     throw Error("a preview shows 1 or 2 materials, here are {}", materials.size());
   for (const PreviewMaterial& material : materials) check_solid(params, material);
-  PreviewScene scene{params, {}, {}, {}, {}, {}, {}, {}, 1, 0, {}, {}, 0, {}, {}, 1, {}};
+  PreviewScene scene{params, {}, {}, {}, {}, {}, {}, {}, 1, 0, {}, {}, 0, {}, {}, 1, {}, {}};
   const bool moves = params.displacement != 0;
   if (moves && !materials.front().maps.contains("height"))
     throw ConfigError("displacement = {}: the texture has no map 'height'", params.displacement);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "surface/camera.h"
@@ -31,6 +32,8 @@ struct PreviewScene {
   Irradiance irradiance;
   float environment_strength = 1;
   Vec3 background;
+
+  std::vector<std::string> notes;  // what it does not show as it is
 
   const Vec3& position(std::uint32_t vertex) const {
     return positions.empty() ? mesh.positions[vertex] : positions[vertex];

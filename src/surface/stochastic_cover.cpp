@@ -64,22 +64,26 @@ Size times(Size size, double x, double y) {
   return {side(size.width, x), side(size.height, y)};
 }
 
-// By how much a material is reduced so that its cover is not too large.
-double reduction(Size cover, int channels, int longest) {
-  const double values = 1.0 * cover.width * cover.height * channels;
-  return std::min(
-      {1.0, 1.0 * longest / std::max(cover.width, cover.height), std::sqrt(most_values / values)});
+// So that its cover has no more pixels than are seen.
+double reduction(Size cover, int longest) {
+  return std::min(1.0, 1.0 * longest / std::max(cover.width, cover.height));
+}
+// So that it fits into memory.
+double loss(Size cover, int channels) {
+  return std::min(1.0, std::sqrt(most_values / (1.0 * cover.width * cover.height * channels)));
 }
 
 }  // namespace
 
-PreviewMaterial covered(const PreviewMaterial& material, Vec2 repeats, double rotation, int longest,
-                        Random random) {
+Cover covered(const PreviewMaterial& material, Vec2 repeats, double rotation, int longest,
+              Random random) {
   check_material(material);
   const Joined joined(material);
-  if (joined.channels() == 0) return material;
+  if (joined.channels() == 0) return {material};
   const double u = static_cast<double>(repeats.u), v = static_cast<double>(repeats.v);
-  const double by = reduction(times(joined.size(), u, v), joined.channels(), longest);
+  const double seen = reduction(times(joined.size(), u, v), longest);
+  const double lost = loss(times(joined.size(), u * seen, v * seen), joined.channels());
+  const double by = seen * lost;
   const Size small = times(joined.size(), by, by), size = times(small, u, v);
   const Exemplar exemplar = joined.exemplar(small);
   const TilingParams params{.rotation = rotation, .wraps = material.wraps};
@@ -87,12 +91,13 @@ PreviewMaterial covered(const PreviewMaterial& material, Vec2 repeats, double ro
   Image cover(size, joined.channels());
   tiling.rows(0, size.height, size.width, cover.at(0, 0));
 
-  PreviewMaterial result;
-  result.green = material.green;
-  result.wraps = Tile::both;
+  Cover result{{}, lost};
+  result.material.green = material.green;
+  result.material.wraps = Tile::both;
   for (const Layer& layer : exemplar.layers) {
     Image part = extract_channels(cover, layer.first, layer.count);
-    (layer.name.empty() ? result.colour : result.maps[layer.name]) = std::move(part);
+    (layer.name.empty() ? result.material.colour : result.material.maps[layer.name]) =
+        std::move(part);
   }
   return result;
 }

@@ -12,7 +12,11 @@ namespace gramloom {
 ///
 /// Its sides have at most `longest` pixels, and all its values stay below 256 MB: beyond, the
 /// material is reduced first. Throws Error for maps of different sizes.
-PreviewMaterial covered(const PreviewMaterial& material, Vec2 repeats, double rotation, int longest,
-                        Random random);
+struct Cover {
+  PreviewMaterial material;
+  double lost = 1;  // by which it is reduced because it would take too much memory
+};
+Cover covered(const PreviewMaterial& material, Vec2 repeats, double rotation, int longest,
+              Random random);
 
 }  // namespace gramloom

@@ -2,10 +2,12 @@
 
 #include <chrono>
 #include <csignal>
+#include <set>
 #include <thread>
 
 #include "cli/process.h"
 #include "cli/workspace.h"
+#include "surface/shading.h"
 
 namespace gramloom {
 namespace {
@@ -193,12 +195,22 @@ TEST_F(PreviewCommand, MistakesAreOneLine) {
           "--map height: has no effect on a solid");
   refused({"brick", "--map", "height=wall_height.png"},
           "--map height: has no effect on the procedural texture 'brick'");
+  refused({"wall.png", "--mapping-size", "3"},
+          "mapping_size: has no effect with mapping = \"own\"");
+  refused({"marble", "--mapping", "solid", "--repeat", "3"}, "repeat: has no effect");
+  refused({"wood", "--mapping", "solid", "--set", "tilt=45"},
+          "--set tilt: has no effect on a solid");
+  refused({"e.png", "--bump", "0.3"}, "bump = 0.3: e.png has no map 'height'");
+  refused({"wall.png", "--bump", "0.3", "--map", "normal=wall.png"}, "normals have no effect");
   // Where the picture cannot be written.
   refused({"wall.png"}, "--output y.xyz: ", "y.xyz");
   refused({"wall.png", "--background", "transparent"}, "--output y.jpg: ", "y.jpg");
   refused({"wall.png"}, "there is no folder none", "none/y.png");
   create_directories(folder_ / "folder.png");
   refused({"wall.png"}, "is a folder", "folder.png");
+  const Outcome size = run({"preview", "wall.png", "--size", "0x9", "--output", "y.png"});
+  EXPECT_EQ(size.exit_code, 2);
+  EXPECT_THAT(size.errors, testing::StartsWith("--size 0x9: needed is SIDE|WIDTHxHEIGHT"));
   const std::string before = file("wall.png");
   refused({"wall.png"}, "would write over wall.png", "wall.png");
   EXPECT_EQ(file("wall.png"), before);
@@ -255,6 +267,87 @@ TEST_F(PreviewCommand, AnInterruptedOneLeavesNoFile) {
   EXPECT_THAT(outcome.errors, HasSubstr("interrupted; nothing is written"));
   for (const auto& entry : std::filesystem::directory_iterator(folder_))
     EXPECT_EQ(entry.path().filename().string().find("x.png"), std::string::npos) << entry.path();
+}
+
+TEST_F(PreviewCommand, AReliefIsThatOfTheHeightsNotOfNormalsBesideThem) {
+  write_image(folder_ / "wall_normal.png", Image(32, 32, 3, 0.5f), {});
+  ASSERT_EQ(preview({"wall.png", "--output", "normal.png", "--quiet"}).exit_code, 0);
+  for (const auto& [bump, name] : {std::pair("0.3", "high.png"), {"0.1", "low.png"}}) {
+    const Outcome outcome = preview({"wall.png", "--bump", bump, "--output", name});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+    EXPECT_THAT(outcome.errors, testing::Not(HasSubstr("wall_normal.png")));
+  }
+  EXPECT_NE(file("high.png"), file("low.png"));
+  EXPECT_NE(file("low.png"), file("normal.png"));
+}
+
+TEST_F(PreviewCommand, AnExrHoldsTheLightItself) {
+  for (const char* const name : {"x.png", "x.exr"})
+    ASSERT_EQ(preview({"wall.png", "--background", "transparent", "--light-strength", "8",
+                       "--output", name, "--quiet"})
+                  .exit_code,
+              0);
+  const Image seen = made(), light = made("x.exr");
+  ASSERT_EQ(light.channels, 4);
+  float brightest = 0;
+  for (std::size_t i = 0; i < light.pixels.size(); i += 4) {
+    if (light.pixels[i + 3] < 1) continue;
+    brightest = std::max(brightest, light.pixels[i]);
+    if (light.pixels[i] >= 0.75f) continue;
+    ASSERT_NEAR(seen.pixels[i], srgb_from_linear(light.pixels[i]), 0.01f);
+  }
+  EXPECT_GT(brightest, 1.5f);
+}
+
+TEST_F(PreviewCommand, ASolidIsTurnedAndMovedByTheMapping) {
+  std::set<std::string> pictures;
+  const std::vector<std::vector<std::string>> ways{
+      {}, {"--pole", "1,0,0"}, {"--mapping-size", "6"}, {"--mapping-origin", "0.3,0.2,0.1"}};
+  for (std::vector<std::string> way : ways) {
+    way.insert(way.begin(), {"wood", "--mapping", "solid"});
+    way.insert(way.end(), {"--output", "x.png", "--quiet"});
+    ASSERT_EQ(preview(way).exit_code, 0);
+    pictures.insert(file("x.png"));
+  }
+  EXPECT_EQ(pictures.size(), ways.size());
+}
+
+// Before the first job, and by `check` too.
+TEST_F(PreviewCommand, AConfigsMeshAndSurroundingsAreLookedInto) {
+  write_text(folder_ / "nan.obj", "v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n");
+  write_text(folder_ / "bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string head =
+      "size = 16\n[[method]]\nname = 'm'\nkind = 'procedural'\ntexture = "
+      "'noise'\n[preview]\nsamples = 1\n";
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"shape = 'nan.obj'", "nan.obj:3: 'nan' is not a finite number"},
+      {"shape = 'bare.obj'", "the mesh has no texture coordinates"},
+      {"environment = 'e.png'\nenvironment_kind = 'latlong'", "twice as wide as high"},
+      {"pattern = 'stripes'", "'pattern' has no effect"}};
+  for (const auto& [line, says] : cases) {
+    write_text(folder_ / "p.toml", head + line + "\n");
+    for (const std::string command : {"check", "run"}) {
+      const Outcome outcome = run({command, "p.toml"});
+      EXPECT_EQ(outcome.exit_code, 2) << line;
+      EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
+      EXPECT_THAT(outcome.errors, HasSubstr(says));
+      EXPECT_THAT(outcome.errors, HasSubstr("p.toml"));
+    }
+  }
+  EXPECT_FALSE(exists(folder_ / "out/p"));
+}
+
+// A texture that the preview does not suit is made, and told of.
+TEST_F(PreviewCommand, WhyThereIsNoPreviewIsSaidOnce) {
+  write_text(folder_ / "p.toml",
+             "size = 16\nseeds = [1, 2]\nscores = false\n[[method]]\nname = 'm'\n"
+             "kind = 'procedural'\ntexture = 'granite'\n"
+             "[preview]\nsamples = 1\ndisplacement = 0.1\n");
+  const Outcome outcome = run({"run", "p.toml"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const std::string note = "note: procedural/m/seed1: no preview: ";
+  EXPECT_THAT(outcome.errors, HasSubstr(note));
+  EXPECT_THAT(outcome.errors, testing::Not(HasSubstr("note: procedural/m/seed2")));
 }
 
 TEST_F(PreviewCommand, AConfigShowsEveryResult) {

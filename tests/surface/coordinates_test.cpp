@@ -78,6 +78,15 @@ TEST(Coordinates, PlanarLooksFromTheSideAwayFromTheSeam) {
   EXPECT_NEAR(planar(front, {1, 1, -5}).u, 1, 1e-6f);
   EXPECT_NEAR(planar(front, {3, 1, -5}).u, 2, 1e-6f);
   expect_gradients([&](const Vec3& q) { return planar(front, q); }, {0.2f, 0.4f, 1});
+  const auto expect_place = [](const Vec3& place, const Vec3& expected) {
+    EXPECT_LT(length(place - expected), 1e-6f);
+  };
+  expect_place(in_solid(front, {-1, -1, -1}), {0, 0, 0});
+  expect_place(in_solid(front, {1, 0.5f, 0}), {1, 0.75f, 0.5f});
+  // The pole, along which a solid's y grows, to the right, half as large, moved.
+  const MappingFrame right = mapping_frame({0.5f, 0, 0}, {1, 0, 0}, {0, 0, -1}, 1);
+  expect_place(in_solid(right, {1, 0, 0}), {0.5f, 1, 0.5f});
+  expect_place(in_solid(right, {0.5f, 0, 0.25f}), {0.5f, 0.5f, 0.75f});
 }
 
 TEST(Coordinates, ConicalFallsDownTheSideFromTheTip) {

@@ -30,7 +30,7 @@ PreviewParams lit_ball() {
 
 Image render(const PreviewParams& p, const PreviewMaterial& material = {},
              const Image& environment = {}) {
-  return render_preview(p, {&material, 1}, environment, {});
+  return render_preview(p, {&material, 1}, environment, {}).picture;
 }
 
 // Where the ray through a pixel's middle meets the unit ball.
@@ -240,7 +240,7 @@ TEST(Preview, TwoMaterialsShareAShapeByAPattern) {
   std::vector<PreviewMaterial> both(2);
   both[0].colour = Image(4, 4, 3, 1);
   both[1].colour = Image(4, 4, 3, 0.25f);
-  const Image picture = render_preview(p, both, {}, {});
+  const Image picture = render_preview(p, both, {}, {}).picture;
   const Camera camera = preview_camera(p);
   const auto at = [&](float x, float z) {
     const auto [i, j] = seen_at(camera, {x, 0, z});

@@ -43,7 +43,7 @@ PreviewMaterial grain(Size size, GreenAxis green = GreenAxis::up) {
 
 TEST(StochasticCover, MapsStayRegisteredAndNothingRepeats) {
   const PreviewMaterial m = grain({64, 64});
-  const PreviewMaterial cover = covered(m, {4, 3}, 0, 4096, Random(1));
+  const PreviewMaterial cover = covered(m, {4, 3}, 0, 4096, Random(1)).material;
   const Image& height = cover.maps.at("height");
   ASSERT_EQ(cover.colour.size(), (Size{256, 192}));
   ASSERT_EQ(height.size(), (Size{256, 192}));
@@ -63,7 +63,8 @@ TEST(StochasticCover, MapsStayRegisteredAndNothingRepeats) {
 
 TEST(StochasticCover, TurnedNormalsAreThoseOfTheHeightBesideThem) {
   for (const GreenAxis green : {GreenAxis::up, GreenAxis::down}) {
-    const PreviewMaterial cover = covered(grain({64, 64}, green), {4, 4}, 180, 4096, Random(2));
+    const PreviewMaterial cover =
+        covered(grain({64, 64}, green), {4, 4}, 180, 4096, Random(2)).material;
     EXPECT_EQ(cover.green, green);
     const Image found = colours_to_normals(cover.maps.at("normal"), cover.green);
     const Image wanted = normals_from_height(cover.maps.at("height"), 20, Tile::both);
@@ -80,7 +81,9 @@ TEST(StochasticCover, TurnedNormalsAreThoseOfTheHeightBesideThem) {
 }
 
 TEST(StochasticCover, ALargeOneIsMadeOfAReducedMaterial) {
-  const PreviewMaterial cover = covered(grain({128, 64}), {40, 40}, 0, 1024, Random(1));
+  EXPECT_EQ(covered(grain({128, 64}), {40, 40}, 0, 1024, Random(1)).lost, 1) << "none is seen";
+  EXPECT_LT(covered(grain({128, 64}), {60, 60}, 0, 65536, Random(1)).lost, 0.9);
+  const PreviewMaterial cover = covered(grain({128, 64}), {40, 40}, 0, 1024, Random(1)).material;
   EXPECT_LE(cover.colour.width, 1024 + 20);
   EXPECT_GT(cover.colour.width, 900);
   EXPECT_NEAR(cover.colour.height, cover.colour.width / 2, 60);
