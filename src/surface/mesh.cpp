@@ -130,10 +130,13 @@ Mesh fitted(Mesh mesh) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  const Vec3 middle = (low + high) * 0.5f;
+  const Vec3 middle = low * 0.5f + high * 0.5f, half = high * 0.5f - low * 0.5f;
+  // Squares of very large and of very small numbers are no floats.
+  const float extent = std::max({half.x, half.y, half.z});
+  const bool extreme = extent > 1e15f || (extent > 0 && extent < 1e-15f);
   float radius = 0;
   for (Vec3& p : mesh.positions) {
-    p = p - middle;
+    p = (p - middle) / (extreme ? extent : 1.0f);
     radius = std::max(radius, length(p));
   }
   if (radius > 0)

@@ -41,7 +41,7 @@ Mesh faceted(const Mesh& mesh);
 /// of a sheet of triangles are compared: within one, all triangles share the same vertex.
 std::vector<std::uint32_t> same_places(const Mesh& mesh, float distance = 1e-5f);
 
-/// The mesh in a ball of radius 1 around the origin, or as much larger or smaller as it was.
+/// The mesh moved and scaled to fit the ball of radius 1 around the origin.
 Mesh fitted(Mesh mesh);
 
 /// Each edge longer than `longest` halved, until there is none: new corners lie on the old

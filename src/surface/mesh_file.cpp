@@ -40,6 +40,7 @@ class Builder {
 
   Mesh finished() {
     if (!has_coordinates_) mesh.coordinates.clear();
+    mesh = fitted(std::move(mesh));  // then what is near is so in any unit of length
     if (!has_normals_) mesh.normals = smooth_normals(mesh, NormalWeights::angle);
     return std::move(mesh);
   }

@@ -20,7 +20,7 @@ Mesh load_shape(const PreviewParams& params, float longest) {
   if (shape.extension() != ".obj" && shape.extension() != ".OBJ")
     throw ConfigError("shape '{}': allowed are {}, or a file (*.obj)", shape.string(),
                       fmt::join(enum_names<Shape>, ", "));
-  return fitted(read_mesh(shape));
+  return read_mesh(shape);
 }
 
 Mesh with_normals(Mesh mesh, Normals normals) {

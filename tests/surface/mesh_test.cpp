@@ -209,6 +209,22 @@ TEST_F(MeshFile, PolygonsBecomeTrianglesWithNormalsAndCoordinates) {
   EXPECT_TRUE(read(square + "f 1 2 3\n").coordinates.empty());
 }
 
+// A tent of two sheets that share no vertex: its normals are smooth across the ridge.
+TEST_F(MeshFile, TheUnitOfLengthDoesNotMatter) {
+  const Mesh one =
+      read("v 0 0 0\nv 1 0 1\nv 0 1 0\nv 0 0 0\nv 0 1 0\nv -1 0 1\nf 1 2 3\nf 4 5 6\n");
+  EXPECT_NEAR(length(one.normals[0] - one.normals[3]), 0, 1e-6f);
+  for (const std::string e : {"e-30", "e-6", "e6", "e30", "e38"}) {
+    const std::string v = "v 0 0 0\nv 1" + e + " 0 1" + e + "\nv 0 1" + e + " 0\n" +
+                          "v 0 0 0\nv 0 1" + e + " 0\nv -1" + e + " 0 1" + e + "\n";
+    const Mesh other = read(v + "f 1 2 3\nf 4 5 6\n");
+    for (std::size_t i = 0; i < 6; ++i) {
+      EXPECT_LT(length(other.positions[i] - one.positions[i]), 1e-5f) << e;
+      EXPECT_LT(length(other.normals[i] - one.normals[i]), 1e-5f) << e;
+    }
+  }
+}
+
 TEST_F(MeshFile, BadFilesAreToldInALine) {
   EXPECT_EQ(refusal("v 0 0 0\n"), "m.obj: a mesh of 0 faces, it needs 1 at least");
   EXPECT_EQ(refusal("v 0 0 0\nv 1 nan 0\nv 1 1 0\nf 1 2 3\n"),
