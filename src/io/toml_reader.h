@@ -28,7 +28,8 @@ std::string place(const toml::source_region& region);
 template <class... Args>
 [[noreturn]] void fail(const toml::source_region& region, fmt::format_string<Args...> text,
                        Args&&... args) {
-  throw ConfigError("{}: {}", place(region), fmt::format(text, std::forward<Args>(args)...));
+  const std::string before = region.path ? place(region) + ": " : "";  // words have no place
+  throw ConfigError("{}{}", before, fmt::format(text, std::forward<Args>(args)...));
 }
 
 /// Throws for the first key of `table` that is not among `known`.

@@ -208,6 +208,8 @@ TEST_F(PreviewCommand, MistakesAreOneLine) {
   refused({"wall.png"}, "there is no folder none", "none/y.png");
   create_directories(folder_ / "folder.png");
   refused({"wall.png"}, "is a folder", "folder.png");
+  EXPECT_THAT(preview({"marbel", "--output", "y.png"}).errors,
+              testing::StartsWith("unknown texture 'marbel' (did you mean 'marble'?)"));
   const Outcome size = run({"preview", "wall.png", "--size", "0x9", "--output", "y.png"});
   EXPECT_EQ(size.exit_code, 2);
   EXPECT_THAT(size.errors, testing::StartsWith("--size 0x9: needed is SIDE|WIDTHxHEIGHT"));
