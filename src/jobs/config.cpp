@@ -80,9 +80,10 @@ void check_preview_section(const Config& config, const toml::source_region& regi
     fail(region, "preview: {}", error.what());
   }
   const PreviewParams usual;
-  if (config.preview->pattern != usual.pattern ||
-      config.preview->pattern_repeat != usual.pattern_repeat)
-    fail(region, "preview: 'pattern' has no effect: a result is one material");
+  for (const auto& [key, set] :
+       {std::pair{"pattern", config.preview->pattern != usual.pattern},
+        {"pattern_repeat", config.preview->pattern_repeat != usual.pattern_repeat}})
+    if (set) fail(region, "preview: '{}' has no effect: a result is one material", key);
   for (const ExemplarEntry& exemplar : config.exemplars)
     if (exemplar.maps.contains("preview"))
       fail(region, "the map 'preview' of '{}' would have the file of the preview: rename it",

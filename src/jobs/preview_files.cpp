@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "io/image_encode.h"
 #include "jobs/map_file.h"
+#include "jobs/names.h"
 #include "jobs/protected_files.h"
 #include "jobs/solid_texture.h"
 #include "runs/map_names.h"
@@ -57,9 +58,10 @@ std::vector<TextureFiles> grouped(const std::vector<std::string>& images) {
 }
 
 // Maps that lie beside a picture under its name.
-void find_beside(TextureFiles& texture, std::string_view left_out, std::vector<std::string>& used) {
+void find_beside(TextureFiles& texture, bool relief, std::vector<std::string>& used) {
   for (const std::string_view name : preview_maps) {
-    if (texture.maps.contains(std::string(name)) || name == left_out) continue;
+    if (texture.maps.contains(std::string(name))) continue;
+    if (name == "normal" && relief && texture.maps.contains("height")) continue;
     const std::string own = texture.picture.extension().string();
     for (const std::string_view extension : {std::string_view(own), ".png"sv, ".exr"sv, ".tif"sv}) {
       fs::path file = texture.picture;
@@ -115,8 +117,6 @@ void check_output(const PreviewWork& work, const std::vector<TextureFiles>& text
   }
 }
 
-bool is_bumped(const PreviewParams& params) { return params.bump != PreviewParams{}.bump; }
-
 bool is_name(const std::string& image) { return FileOrName(image).is_name(); }
 
 // What is given must have an effect.
@@ -136,23 +136,27 @@ void check_use(const PreviewWork& work) {
                       map, work.images.front());
 }
 
-// What is given must have an effect: also a relief, which needs heights, and normals, which need
-// that there is none.
-void check_relief(const PreviewWork& work, const std::vector<TextureFiles>& textures) {
-  const PreviewParams& params = work.params;
+bool has_height(const TextureFiles& texture) {
+  return is_name(texture.picture.string()) || texture.maps.contains("height");
+}
+
+// What is given must have an effect: also a relief, which needs heights, and normals, before which
+// a relief goes.
+void check_relief(const PreviewParams& params, const std::vector<TextureFiles>& textures) {
+  if (!asks_for_relief(params)) return;
   for (const TextureFiles& texture : textures) {
     const auto normal = texture.maps.find("normal");
-    if (normal != texture.maps.end() && (params.displacement != 0 || is_bumped(params)))
+    if (normal != texture.maps.end() && has_height(texture))
       throw ConfigError(
           "{}: normals have no effect where heights are displaced (--displacement) or bumped "
           "(--bump): leave one of them out",
           normal->second.string());
   }
-  if (!is_bumped(params) || textures.empty()) return;
-  const TextureFiles& first = textures.front();
-  if (!is_name(first.picture.string()) && !first.maps.contains("height"))
-    throw ConfigError("bump = {}: {} has no map 'height'", params.bump,
-                      first.picture.empty() ? "the surface" : first.picture.string());
+  if (params.displacement == 0 && !textures.empty() &&
+      std::none_of(textures.begin(), textures.end(), has_height))
+    throw ConfigError(
+        "bump = {}: there is no map 'height' of {}", params.bump,
+        textures.front().picture.empty() ? "the surface" : textures.front().picture.string());
 }
 
 // In place of what was found.
@@ -188,13 +192,12 @@ Image render(const PreviewWork& work, const fs::path& output, std::vector<std::s
   if (work.params.mapping != Mapping::solid ||
       std::all_of(work.images.begin(), work.images.end(), is_name))
     textures = grouped(work.images);
-  // Normals would take the place of the relief that is asked for.
-  const bool relief = work.params.displacement != 0 || is_bumped(work.params);
-  for (TextureFiles& texture : textures)
-    if (!is_name(texture.picture.string())) find_beside(texture, relief ? "normal" : "", used);
   if (work.images.empty()) textures.emplace_back();  // of one colour
   if (!textures.empty()) add_named_maps(textures.front(), work.maps);
-  check_relief(work, textures);
+  for (TextureFiles& texture : textures)
+    if (!texture.picture.empty() && !is_name(texture.picture.string()))
+      find_beside(texture, asks_for_relief(work.params), used);
+  check_relief(work.params, textures);
   check_output(work, textures, output);
   RenderedPreview rendered = render_preview(work.params, read_materials(work, textures),
                                             read_environment(work.params), control);
@@ -229,7 +232,8 @@ PreviewFile make_preview(const PreviewWork& work, const fs::path& output, const 
   } catch (const Error& error) {
     throw ConfigError("{}", error.what());
   }
-  const Shown as = output.extension() == ".exr" ? Shown::light : Shown::colours;
+  const Shown as =
+      in_small_letters(output.extension().string()) == ".exr" ? Shown::light : Shown::colours;
   write_image(output, shown_preview(work.params, rendered, as), {});
   return result;
 }

@@ -50,6 +50,18 @@ void complain(RunState& state, const std::string& line) {
   state.summary.lacking = true;
 }
 
+// Once for an exemplar and a method: the next seed has the same, but for its files' names.
+void tell_notes(RunState& state, const PlannedJob& planned, const JobRecord& record) {
+  const std::string seed = fs::path(planned.name).filename().string();
+  for (const std::string& note : record.notes) {
+    const std::string_view what =
+        std::string_view(note).substr(note.starts_with(seed) ? seed.size() : 0);
+    if (state.noted.insert(fmt::format("{}: {}", job_folder(state.run.config, planned.job), what))
+            .second)
+      state.run.bar.message(fmt::format("note: {}: {}", planned.name, note));
+  }
+}
+
 void put_down(RunState& state, const PlannedJob& planned, const JobRecord& record) {
   state.log.set(planned.name, record);
   or_complain(state.run, [&] { state.log.keep_up(); });
@@ -85,9 +97,7 @@ void settle_texture(RunState& state, const PlannedJob& planned, const TaskResult
   count_outcome(state.summary, record.status);
   const std::string text = outcome(planned, record);
   record.status == Status::failed ? bar.complaint(text) : bar.message(text);
-  for (const std::string& note : record.notes)  // once: the next seed has the same
-    if (state.noted.insert(note).second)
-      bar.message(fmt::format("note: {}: {}", planned.name, note));
+  tell_notes(state, planned, record);
   put_down(state, planned, record);
 }
 

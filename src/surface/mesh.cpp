@@ -18,6 +18,18 @@ Vec3 area_vector(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
   return cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a) * 0.5f;
 }
 
+// In a file's own unit of length, whose squares may be beyond floats.
+bool has_area(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
+  const auto edge = [&](std::size_t corner) {
+    const Vec3 &from = mesh.positions[t[0]], &to = mesh.positions[t[corner]];
+    return std::array{static_cast<double>(to.x) - static_cast<double>(from.x),
+                      static_cast<double>(to.y) - static_cast<double>(from.y),
+                      static_cast<double>(to.z) - static_cast<double>(from.z)};
+  };
+  const auto a = edge(1), b = edge(2);
+  return a[1] * b[2] != a[2] * b[1] || a[2] * b[0] != a[0] * b[2] || a[0] * b[1] != a[1] * b[0];
+}
+
 // The angle of a triangle at one of its corners.
 float angle_at(const Mesh& mesh, const std::array<std::uint32_t, 3>& t, std::size_t corner) {
   const Vec3& here = mesh.positions[t[corner]];
@@ -63,8 +75,7 @@ void check_mesh(const Mesh& mesh, const std::string& name) {
          !(std::isfinite(mesh.coordinates[i].u) && std::isfinite(mesh.coordinates[i].v))))
       throw Error("{}: vertex {} has a value that is not a finite number", name, i + 1);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    if (!(length(area_vector(mesh, mesh.triangles[i])) > 0))
-      throw Error("{}: triangle {} has no area", name, i + 1);
+    if (!has_area(mesh, mesh.triangles[i])) throw Error("{}: triangle {} has no area", name, i + 1);
 }
 
 std::vector<std::uint32_t> same_places(const Mesh& mesh, float distance) {

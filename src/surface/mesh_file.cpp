@@ -40,6 +40,7 @@ class Builder {
 
   Mesh finished() {
     if (!has_coordinates_) mesh.coordinates.clear();
+    check_mesh(mesh, name_);
     mesh = fitted(std::move(mesh));  // then what is near is so in any unit of length
     if (!has_normals_) mesh.normals = smooth_normals(mesh, NormalWeights::angle);
     return std::move(mesh);
@@ -136,9 +137,7 @@ Mesh read_mesh(const std::filesystem::path& path) {
       for (std::size_t k = 0; k < 3; ++k) triangle[k] = builder.vertex(shape.mesh.indices[i + k]);
       builder.mesh.triangles.push_back(triangle);
     }
-  Mesh mesh = builder.finished();
-  check_mesh(mesh, name);
-  return mesh;
+  return builder.finished();
 }
 
 }  // namespace gramloom::surface_module

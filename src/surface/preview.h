@@ -37,11 +37,19 @@ inline constexpr auto preview_maps =
 /// `picture`, whose colours are stored as sRGB, with linear values.
 Image linear_picture(const Image& picture);
 
+/// Whether a relief by the heights is asked for: then it goes before a normal map.
+bool asks_for_relief(const PreviewParams& params);
+
 /// Throws ConfigError for parameters out of range, or that don't fit together.
 void check_preview(const PreviewParams& params);
 
 /// What render_preview() takes for a material of this size with all maps.
 Cost estimate_preview(const PreviewParams& params, Size material);
+
+struct RenderedPreview {
+  Image picture;
+  std::vector<std::string> notes;  // what is not shown as it is
+};
 
 /// The picture of a shape with one material, or with two that share it by the params' pattern: four
 /// channels with linear values and alpha. `environment`: a picture with linear values, of the kind
@@ -49,10 +57,6 @@ Cost estimate_preview(const PreviewParams& params, Size material);
 /// Throws ConfigError for parameters out of range, Error for maps of different sizes, an
 /// environment of other proportions, a mesh that cannot be used, a mapping that does not suit the
 /// material; Interrupted when told to stop.
-struct RenderedPreview {
-  Image picture;
-  std::vector<std::string> notes;  // what is not shown as it is
-};
 RenderedPreview render_preview(const PreviewParams& params,
                                std::span<const PreviewMaterial> materials, const Image& environment,
                                const Control& control);

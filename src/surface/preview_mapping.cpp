@@ -31,6 +31,7 @@ void check_effects(const PreviewParams& p) {
         {"u_axis", p.u_axis != usual.u_axis, linear},
         {"v_axis", p.v_axis != usual.v_axis, linear},
         {"cone_angle", p.cone_angle != usual.cone_angle, p.mapping == Mapping::conical},
+        {"bump", p.bump != usual.bump, p.mapping != Mapping::solid},
         {"repeat", !p.repeat.empty(), p.mapping != Mapping::solid}})
     if (set && !has_effect)
       throw ConfigError("{}: has no effect with mapping = \"{}\"", name, to_word(p.mapping));
@@ -55,6 +56,10 @@ std::optional<Shape> named_shape(const FileOrName& shape) {
                     fmt::join(names, ", "));
 }
 
+bool asks_for_relief(const PreviewParams& p) {
+  return p.displacement != 0 || p.bump != PreviewParams{}.bump;
+}
+
 void check_preview(const PreviewParams& p) {
   check_fields(p);
   check_pair("light", p.light);
@@ -74,7 +79,9 @@ void check_preview(const PreviewParams& p) {
       p.environment_kind != EnvironmentKind::sky_box)
     throw ConfigError("environment has 6 files, the faces of a sky box, and not a {}",
                       to_word(p.environment_kind));
-  named_shape(p.shape);
+  if (!named_shape(p.shape) && p.shape.extension() != ".obj" && p.shape.extension() != ".OBJ")
+    throw ConfigError("shape '{}': allowed are {}, or a file (*.obj)", p.shape.string(),
+                      fmt::join(enum_names<Shape>, ", "));
   if (p.bend != 0 && p.shape != "tube")
     throw ConfigError("bend = {}: only the tube bends, not '{}'", p.bend, p.shape.string());
   make_frame(p);

@@ -80,8 +80,9 @@ MaterialLookup::MaterialLookup(const PreviewParams& params, const PreviewMateria
 // All that a point needs of the pictures, as the channels of one.
 Image MaterialLookup::packed() {
   const bool solid = params_.mapping == Mapping::solid;
-  const Image* normal = params_.displacement == 0 ? find(material_, "normal") : nullptr;
   const Image* height = find(material_, "height");
+  const bool by_height = params_.displacement != 0 || (height && asks_for_relief(params_));
+  const Image* normal = by_height ? nullptr : find(material_, "normal");
   const bool relief = !normal && height && (params_.displacement != 0 || params_.bump != 0);
   const auto take = [&](bool wanted, int channels) {
     if (!wanted) return -1;

@@ -17,9 +17,6 @@ constexpr float shortest_edge = 0.0045f;
 Mesh load_shape(const PreviewParams& params, float longest) {
   const FileOrName& shape = params.shape;
   if (const auto named = named_shape(shape)) return make_shape(*named, longest, params.bend);
-  if (shape.extension() != ".obj" && shape.extension() != ".OBJ")
-    throw ConfigError("shape '{}': allowed are {}, or a file (*.obj)", shape.string(),
-                      fmt::join(enum_names<Shape>, ", "));
   return read_mesh(shape);
 }
 
@@ -59,10 +56,10 @@ void add_materials(PreviewScene& scene, std::span<const PreviewMaterial> materia
     const Random random = Random(1).stream(scene.covers.size());
     Cover cover = covered(material, repeat, p.stochastic_rotation,
                           static_cast<int>(std::min(longest, 65536.0)), random);
-    if (cover.lost < 1)
+    if (cover.lost < 0.995)
       scene.notes.push_back(
-          fmt::format("stochastic: at {:.0f} % of the texture's resolution, for want of memory: "
-                      "fewer repeats keep more",
+          fmt::format("stochastic: at {:.0f} % of the resolution that would be seen, for want of "
+                      "memory: fewer repeats keep more",
                       100 * cover.lost));
     scene.covers.push_back(std::move(cover.material));
     scene.materials.emplace_back(p, scene.covers.back(), Vec2{1, 1}, scene.mapping.frame);

@@ -139,6 +139,49 @@ void add_light_between_horizons(const Line& line, Horizons& row) {
   }
 }
 
+// A row's value at x, also beyond its ends: there the ground goes on as it came, turned by half
+// around each end, so that a slope stays one.
+float beyond_ends(const float* row, int width, int x) {
+  const int last = width - 1;
+  if (last == 0) return row[0];
+  const int turns = static_cast<int>(std::floor(static_cast<double>(x) / (2 * last)));
+  const int at = x - 2 * last * turns;
+  const float climb = 2 * (row[last] - row[0]) * static_cast<float>(turns);
+  return climb + (at <= last ? row[at] : 2 * row[last] - row[2 * last - at]);
+}
+
+// With `margin` more columns on either side.
+Image with_margins(const Image& height, int margin, bool wraps) {
+  Image wide(height.width + 2 * margin, height.height, 1);
+  for (int y = 0; y < wide.height; ++y)
+    for (int x = 0; x < wide.width; ++x) {
+      const float* row = height.at(0, y);
+      *wide.at(x, y) = wraps ? row[neighbour(x - margin, height.width, true)]
+                             : beyond_ends(row, height.width, x - margin);
+    }
+  return wide;
+}
+
+Image transposed(const Image& image) {
+  Image other(image.height, image.width, 1);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) *other.at(y, x) = *image.at(x, y);
+  return other;
+}
+
+// Weighted by a Gaussian, with the same ground beyond the edges as everywhere here.
+Image smoothed(const Image& height, double scale, Tile wraps) {
+  if (scale == 0) return height;
+  const int margin = static_cast<int>(std::ceil(4 * scale)) + 1;
+  const Image wide = transposed(with_margins(height, margin, tiles_x(wraps)));
+  const Image blur =
+      blurred(transposed(with_margins(wide, margin, tiles_y(wraps))), scale, Tile::none);
+  Image smooth(height.size(), 1);
+  for (int y = 0; y < height.height; ++y)
+    std::copy_n(blur.at(margin, y + margin), height.width, smooth.at(0, y));
+  return smooth;
+}
+
 }  // namespace
 
 Image ambient_occlusion(const Image& height, double strength, int radius, int lines, Tile wraps) {
@@ -170,7 +213,7 @@ Image curvature(const Image& height, double strength, double radius, double scal
   if (!(radius > 0)) throw Error("radius = {}: allowed are numbers above 0", radius);
   if (!(scale >= 0)) throw Error("scale = {}: allowed are numbers from 0", scale);
   const auto top = static_cast<float>(radius);
-  const Image smooth = scale > 0 ? blurred(height, scale, wraps) : height;
+  const Image smooth = smoothed(height, scale, wraps);
   Image map(height.size(), 1);
   for_each_ground_row(smooth, strength, wraps, [&](int y, const GroundRows& ground) {
     const float *a = ground.above, *h = ground.here, *b = ground.below;

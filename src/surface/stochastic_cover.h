@@ -5,6 +5,11 @@
 
 namespace gramloom {
 
+struct Cover {
+  PreviewMaterial material;
+  double lost = 1;  // by which it is reduced because it would take too much memory
+};
+
 /// A material that is to be laid `repeats` times over a shape, as one that is laid once and repeats
 /// nothing: all its pictures covered together by stochastic tiling (surface/tiling.h), so that maps
 /// stay registered. `rotation`: pieces are turned by up to so many degrees, and normals with them.
@@ -12,10 +17,6 @@ namespace gramloom {
 ///
 /// Its sides have at most `longest` pixels, and all its values stay below 256 MB: beyond, the
 /// material is reduced first. Throws Error for maps of different sizes.
-struct Cover {
-  PreviewMaterial material;
-  double lost = 1;  // by which it is reduced because it would take too much memory
-};
 Cover covered(const PreviewMaterial& material, Vec2 repeats, double rotation, int longest,
               Random random);
 

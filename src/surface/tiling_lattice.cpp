@@ -30,10 +30,10 @@ void check_period(double period, int places, int length, std::string_view way) {
         period, way, length, places, places);
 }
 
-// A period that leaves one place for every piece would only repeat the picture.
+// With as many places as the period is long, each piece has one multiple: the picture itself again.
 void check_choice(const TilingLattice::Shape& shape, Size places) {
   const bool periodic = shape.period_x > 1 || shape.period_y > 1;
-  if (periodic && places.width < 2 * shape.period_x && places.height < 2 * shape.period_y)
+  if (periodic && places.width <= shape.period_x && places.height <= shape.period_y)
     throw Error(
         "period = {},{}: every piece would be from the same place of the picture of {}×{} pixels, "
         "which would only be repeated; choose a shorter period, or a larger picture",

@@ -200,7 +200,7 @@ TEST_F(PreviewCommand, MistakesAreOneLine) {
   refused({"marble", "--mapping", "solid", "--repeat", "3"}, "repeat: has no effect");
   refused({"wood", "--mapping", "solid", "--set", "tilt=45"},
           "--set tilt: has no effect on a solid");
-  refused({"e.png", "--bump", "0.3"}, "bump = 0.3: e.png has no map 'height'");
+  refused({"e.png", "--bump", "0.3"}, "bump = 0.3: there is no map 'height' of e.png");
   refused({"wall.png", "--bump", "0.3", "--map", "normal=wall.png"}, "normals have no effect");
   // Where the picture cannot be written.
   refused({"wall.png"}, "--output y.xyz: ", "y.xyz");

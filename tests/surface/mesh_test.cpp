@@ -225,6 +225,10 @@ TEST_F(MeshFile, TheUnitOfLengthDoesNotMatter) {
   }
 }
 
+TEST_F(MeshFile, VerySmallTrianglesBesideLargeOnesAreRead) {
+  EXPECT_EQ(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1e-9 0 0\nv 0 1e-9 0\nf 1 2 3\nf 1 4 5\n"), "");
+}
+
 TEST_F(MeshFile, BadFilesAreToldInALine) {
   EXPECT_EQ(refusal("v 0 0 0\n"), "m.obj: a mesh of 0 faces, it needs 1 at least");
   EXPECT_EQ(refusal("v 0 0 0\nv 1 nan 0\nv 1 1 0\nf 1 2 3\n"),

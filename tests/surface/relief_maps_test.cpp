@@ -101,6 +101,9 @@ TEST(Curvature, OfABallACylinderAndTheirHollows) {
 
 TEST(Curvature, ARampIsFlatUpToItsEdges) {
   const Image ramp = height_of({9, 7}, [](double x, double y) { return 0.5 * x - 2 * y; });
+  for (const double scale : {2.0, 5.0})
+    for (const float value : curvature(ramp, 3, 10, scale, Tile::none).pixels)
+      ASSERT_NEAR(value, 0.5, 1e-3) << scale;
   for (const float value : curvature(ramp, 3, 10, 0, Tile::none).pixels)
     ASSERT_NEAR(value, 0.5, 1e-5);
 }

@@ -331,7 +331,8 @@ TEST(Tiling, RefusesPeriodsAndCellsThatLeavePiecesNoChoice) {
   };
   // Sides of 8: pieces of 17 × 14 pixels, 16 × 27 places.
   EXPECT_EQ(refusal({.period = {8, 27}}), "");
-  EXPECT_EQ(refusal({.period = {16, 13}}), "");
+  EXPECT_EQ(refusal({.period = {15, 27}}), "");
+  EXPECT_EQ(refusal({.period = {15, 26}}), "") << "some pieces have two places";
   EXPECT_THAT(refusal({.period = {16, 27}}),
               testing::HasSubstr("every piece would be from the same place"));
   EXPECT_EQ(refusal({.period = {17, 8}}),
