@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <numbers>
 
@@ -62,12 +63,16 @@ PyramidBand make_band(Size size, Size grid, Complex phase,
   return band;
 }
 
-/// Calls f(row of the band, the image's row of the same frequency). A band's grid may reach a
-/// little beyond the image's frequencies; its gain is 0 there.
+/// Calls f(row of the band, the image's row of the same frequency, columns that both have). A
+/// band's grid may reach a little beyond the image's frequencies, as its sides are fast lengths;
+/// its gain is 0 there, and the image has nothing to read.
 template <class F>
-void for_common_rows(const PyramidBand& band, int image_rows, const F& f) {
-  for (int y = 0; y < band.grid.height; ++y)
-    f(y, row_of(frequency(y, band.grid.height), image_rows));
+void for_common_rows(const PyramidBand& band, const cv::Mat& coefficients, const F& f) {
+  const int columns = std::min(band.gain.cols, coefficients.cols);
+  for (int y = 0; y < band.grid.height; ++y) {
+    const int of_row = frequency(y, band.grid.height);
+    if (2 * std::abs(of_row) <= coefficients.rows) f(y, row_of(of_row, coefficients.rows), columns);
+  }
 }
 
 }  // namespace
@@ -100,23 +105,22 @@ SteerablePyramid steerable_pyramid(Size size, int levels, int orientations) {
 }
 
 cv::Mat band_of(const cv::Mat& coefficients, const PyramidBand& band) {
-  cv::Mat filtered(band.grid.height, band.grid.width, CV_32FC2);
-  for_common_rows(band, coefficients.rows, [&](int y, int image_row) {
+  cv::Mat filtered(band.grid.height, band.grid.width, CV_32FC2, cv::Scalar::all(0));
+  for_common_rows(band, coefficients, [&](int y, int image_row, int columns) {
     const auto* in = coefficients.ptr<Complex>(image_row);
     const auto* gain = band.gain.ptr<float>(y);
     auto* out = filtered.ptr<Complex>(y);
-    for (int x = 0; x < band.gain.cols; ++x) out[x] = gain[x] * times(in[x], band.phase);
+    for (int x = 0; x < columns; ++x) out[x] = gain[x] * times(in[x], band.phase);
   });
   return from_fourier_coefficients(filtered);
 }
 
 void add_band(cv::Mat& coefficients, const cv::Mat& band_coefficients, const PyramidBand& band) {
-  for_common_rows(band, coefficients.rows, [&](int y, int image_row) {
+  for_common_rows(band, coefficients, [&](int y, int image_row, int columns) {
     const auto* in = band_coefficients.ptr<Complex>(y);
     const auto* gain = band.gain.ptr<float>(y);
     auto* out = coefficients.ptr<Complex>(image_row);
-    for (int x = 0; x < band.gain.cols; ++x)
-      out[x] += gain[x] * times(in[x], std::conj(band.phase));
+    for (int x = 0; x < columns; ++x) out[x] += gain[x] * times(in[x], std::conj(band.phase));
   });
 }
 

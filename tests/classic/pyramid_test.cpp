@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "signal/fourier.h"
@@ -52,6 +53,27 @@ TEST_P(SteerablePyramidOf, KeepsEnergy) {
   for (const auto& band : steerable_pyramid(size, levels, orientations).bands)
     sum += energy(band_of(fourier_coefficients(plane), band));
   EXPECT_NEAR(sum, energy(plane), 1e-5 * energy(plane));
+}
+
+// A band's grid may be larger than the picture, whose coefficients are given as the half that
+// counts.
+TEST_P(SteerablePyramidOf, ReadsAndWritesNothingBesideTheCoefficients) {
+  const auto& [size, levels, orientations] = GetParam();
+  const cv::Mat coefficients = fourier_coefficients(channel_plane(noise(size, 1, 3), 0));
+  const cv::Rect inside(0, 0, size.width / 2 + 1, size.height);
+  const float nothing = std::numeric_limits<float>::quiet_NaN();
+  cv::Mat room(size.height + 2, size.width + 2, CV_32FC2, cv::Scalar::all(nothing));
+  coefficients(inside).copyTo(room(inside));
+  cv::Mat sum(room.size(), CV_32FC2, cv::Scalar::all(-0.0));
+  cv::Mat sum_inside = sum(inside);
+  for (const auto& band : steerable_pyramid(size, levels, orientations).bands) {
+    const cv::Mat samples = band_of(room(inside), band);
+    EXPECT_EQ(cv::norm(samples, band_of(coefficients, band), cv::NORM_INF), 0);
+    add_band(sum_inside, fourier_coefficients(samples), band);
+  }
+  for (int y = 0; y < sum.rows; ++y)
+    for (int x = 0; x < sum.cols; ++x)
+      EXPECT_TRUE(inside.contains({x, y}) || std::signbit(sum.at<cv::Vec2f>(y, x)[0]));
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, SteerablePyramidOf,
