@@ -13,16 +13,13 @@ namespace gramloom {
 
 namespace {
 
-constexpr const char* exit_codes =
-    "Exit code: 0 all done; 1 a job failed or got worse; 2 bad usage or config; 130 interrupted.";
-
-// The end of a command's --help.
+// Of a command's --help, before what is said of the program.
 std::string footer_of(const CLI::App& command) {
   std::string text = "Examples:";
   for (const std::string& line :
        CLI::detail::split(std::string(examples_of(command.get_name())), '\n'))
     text += "\n  " + line;
-  return fmt::format("{}\n{}", text, exit_codes);
+  return text;
 }
 
 }  // namespace
@@ -31,7 +28,9 @@ ExitCode run_program(int argc, char** argv) {
   CLI::App app("New textures from a small picture of one.", "gramloom");
   app.set_version_flag("--version", version_line());
   app.require_subcommand(1);
-  app.footer(exit_codes);
+  app.footer(
+      "Exit code: 0 all done; 1 a job failed or got worse; 2 bad usage or config; 130 "
+      "interrupted.");
   const std::vector<Command> commands{add_make(app, {argv, argv + argc}),
                                       add_run(app, {argv, argv + argc}),
                                       add_new(app),
@@ -53,7 +52,8 @@ ExitCode run_program(int argc, char** argv) {
                                       add_infer(app),
                                       add_manual(app),
                                       add_completion(app)};
-  for (const Command& command : commands) command.app->footer(footer_of(*command.app));
+  for (const Command& command : commands)
+    command.app->footer([app = command.app] { return footer_of(*app); });
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {

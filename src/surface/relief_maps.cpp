@@ -151,14 +151,11 @@ float beyond_ends(const float* row, int width, int x) {
 }
 
 // With `margin` more columns on either side.
-Image with_margins(const Image& height, int margin, bool wraps) {
+Image with_margins(const Image& height, int margin) {
   Image wide(height.width + 2 * margin, height.height, 1);
   for (int y = 0; y < wide.height; ++y)
-    for (int x = 0; x < wide.width; ++x) {
-      const float* row = height.at(0, y);
-      *wide.at(x, y) = wraps ? row[neighbour(x - margin, height.width, true)]
-                             : beyond_ends(row, height.width, x - margin);
-    }
+    for (int x = 0; x < wide.width; ++x)
+      *wide.at(x, y) = beyond_ends(height.at(0, y), height.width, x - margin);
   return wide;
 }
 
@@ -173,12 +170,12 @@ Image transposed(const Image& image) {
 Image smoothed(const Image& height, double scale, Tile wraps) {
   if (scale == 0) return height;
   const int margin = static_cast<int>(std::ceil(4 * scale)) + 1;
-  const Image wide = transposed(with_margins(height, margin, tiles_x(wraps)));
-  const Image blur =
-      blurred(transposed(with_margins(wide, margin, tiles_y(wraps))), scale, Tile::none);
+  const int across = tiles_x(wraps) ? 0 : margin, down = tiles_y(wraps) ? 0 : margin;
+  const Image wide = transposed(with_margins(height, across));
+  const Image blur = blurred(transposed(with_margins(wide, down)), scale, wraps);
   Image smooth(height.size(), 1);
   for (int y = 0; y < height.height; ++y)
-    std::copy_n(blur.at(margin, y + margin), height.width, smooth.at(0, y));
+    std::copy_n(blur.at(across, y + down), height.width, smooth.at(0, y));
   return smooth;
 }
 
