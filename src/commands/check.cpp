@@ -33,7 +33,7 @@ std::string output_refusal(const Config& config, const Plan& plan) {
 ExitCode check_config(const ConfigOptions& options, bool as_json) {
   const Config config = read_config(options.config, options.set);
   const std::vector<Expectation> lessons = expected_lessons(config, options.only);
-  check_preview_files(config);
+  check_previews(config);
   const Plan plan = make_plan(config, options.only);
   if (!has_selected(plan) && lessons.empty())
     throw ConfigError("--only {}: no model and no job of {} matches", options.only,

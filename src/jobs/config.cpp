@@ -11,7 +11,6 @@
 #include "jobs/names.h"
 #include "jobs/overrides.h"
 #include "jobs/read_direction.h"
-#include "surface/preview.h"
 
 namespace gramloom {
 
@@ -55,10 +54,10 @@ Fields read_section(toml::table& config, std::string_view name) {
 
 // Maps are made of a height, and nobody has two maps of one name.
 void check_surface(const Config& config, toml::table& table) {
+  if (!makes_any(config.surface)) return;
   const std::vector<std::string> asked = maps_asked(config.surface);
-  if (asked.empty()) return;
   const toml::source_region& region = key_region(table, "surface");
-  bool any_height = false;
+  bool any_height = config.surface.guess;
   for (const MethodEntry& method : config.methods) any_height |= !needs_exemplar(method.method);
   for (const ExemplarEntry& exemplar : config.exemplars) {
     any_height |= !height_among(exemplar.maps, config.surface).empty();
@@ -68,26 +67,19 @@ void check_surface(const Config& config, toml::table& table) {
              exemplar.name);
   }
   if (!any_height)
-    fail(region, "'surface' makes maps of heights: no exemplar has a map called '{}'",
+    fail(region,
+         "'surface' makes maps of heights: no exemplar has a map called '{}' (guess = true guesses "
+         "heights from the colours)",
          config.surface.height);
 }
 
-// What a preview's fields cannot say alone; and its file is not that of a map.
-void check_preview_section(const Config& config, const toml::source_region& region) {
-  try {
-    check_preview(*config.preview);
-  } catch (const Error& error) {
-    fail(region, "preview: {}", error.what());
-  }
-  const PreviewParams usual;
-  for (const auto& [key, set] :
-       {std::pair{"pattern", config.preview->pattern != usual.pattern},
-        {"pattern_repeat", config.preview->pattern_repeat != usual.pattern_repeat}})
-    if (set) fail(region, "preview: '{}' has no effect: a result is one material", key);
-  for (const ExemplarEntry& exemplar : config.exemplars)
-    if (exemplar.maps.contains("preview"))
-      fail(region, "the map 'preview' of '{}' would have the file of the preview: rename it",
-           exemplar.name);
+// The file of a preview is not that of a map.
+void check_preview_names(const Config& config) {
+  for (const PreviewEntry& preview : config.previews)
+    for (const ExemplarEntry& exemplar : config.exemplars)
+      if (exemplar.maps.contains(label_of(preview)))
+        throw ConfigError("{}: the map '{}' of '{}' would have the file of the {}: rename it",
+                          preview.place, label_of(preview), exemplar.name, title_of(preview));
 }
 
 void check_seeds(const Config& config, const toml::table& table) {
@@ -145,10 +137,8 @@ Config parse_config(const std::string& text, const fs::path& file,
   follow_direction(config, table);
   config.baseline = read_section<BaselineLimits>(table, "baseline");
   config.surface = read_section<SurfaceParams>(table, "surface");
-  if (single_section(table, "preview")) {
-    config.preview = read_section<PreviewParams>(table, "preview");
-    check_preview_section(config, key_region(table, "preview"));
-  }
+  config.previews = read_previews(table);
+  check_preview_names(config);
   check_whole(config, table);
   check_surface(config, table);
   return config;

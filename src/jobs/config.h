@@ -12,10 +12,10 @@
 #include "jobs/direction.h"
 #include "jobs/map_file.h"
 #include "jobs/methods.h"
+#include "jobs/preview_entries.h"
 #include "jobs/recipes.h"
 #include "runs/baseline_limits.h"
 #include "surface/maps.h"
-#include "surface/preview_params.h"
 
 namespace gramloom {
 
@@ -103,11 +103,11 @@ struct Config {
   bool coordinates = false;
   std::vector<ExemplarEntry> exemplars;
   std::vector<MethodEntry> methods;
-  std::vector<ModelEntry> models;        // that `gramloom train` trains
-  Direction direction;                   // its [guide], [mix], [turn] and [fill]
-  BaselineLimits baseline;               // its [baseline]
-  SurfaceParams surface;                 // its [surface]: maps of every result that has a height
-  std::optional<PreviewParams> preview;  // its [preview]: a picture of every result on a shape
+  std::vector<ModelEntry> models;      // that `gramloom train` trains
+  Direction direction;                 // its [guide], [mix], [turn] and [fill]
+  BaselineLimits baseline;             // its [baseline]
+  SurfaceParams surface;               // its [surface]: maps of every result that has a height
+  std::vector<PreviewEntry> previews;  // its [preview] or [[preview]]: pictures of results
 
   static constexpr auto fields() {
     using C = Config;
@@ -132,7 +132,8 @@ inline constexpr std::string_view procedural_folder = "procedural";
 /// of one that the texture's follows from); `overrides` are
 /// "key=value" (a top-level key, or a parameter of every method that has it),
 /// "method.NAME.key=value", "exemplar.NAME.key=value" or "SECTION.key=value", such as
-/// "fill.mask=hole.png". Throws ConfigError, which says where the mistake is.
+/// "fill.mask=hole.png"; "preview.key=value" is of all previews, "preview.NAME.key=value" of one.
+/// Throws ConfigError, which says where the mistake is.
 Config read_config(const std::filesystem::path& file,
                    const std::vector<std::string>& overrides = {});
 

@@ -47,7 +47,9 @@ std::vector<InputFile> input_files(const Config& config) {
   for (const auto& [key, file] : files_of(config.direction))
     files.push_back({file, "the config reads"});
   for (const MethodEntry& method : config.methods) add_files_of(method.method, files);
-  for (const auto& [key, file] : preview_files(config)) files.push_back({file, "the config reads"});
+  for (const PreviewEntry& preview : config.previews)
+    for (const auto& [key, file] : preview_files(preview))
+      files.push_back({file, "the config reads"});
   return files;
 }
 

@@ -55,6 +55,13 @@ std::string exemplar_section(const ExemplarEntry& exemplar) {
   return section_of("[[exemplar]]", lines);
 }
 
+// Of the job: it needs no word of which jobs.
+std::string preview_section(const PreviewEntry& preview, std::size_t count) {
+  PreviewEntry own = preview;
+  own.only.clear();
+  return section_of(count > 1 ? "[[preview]]" : "[preview]", lines_in_config(own));
+}
+
 // That of the job, or that which its texture is scored against.
 const ExemplarEntry* exemplar_of(const Config& config, const Job& job) {
   if (job.exemplar) return &config.exemplars[*job.exemplar];
@@ -85,24 +92,32 @@ std::string method_section(const MethodEntry& entry) {
 
 std::string job_config(const Config& config, const Job& job) {
   std::string text = fmt::format("seeds = [{}]\n", job.seed) + top_lines(config);
+  const std::vector<const PreviewEntry*> previews = previews_of(config, job);
   for_each_direction(config.direction, [&]<class Entry>(const std::optional<Entry>& entry) {
     if (entry) text += section_of(fmt::format("[{}]", Entry::section), lines_that_say_more(*entry));
   });
   if (makes_maps(config, job)) text += section_of("[surface]", lines_in_config(config.surface));
-  if (config.preview) text += section_of("[preview]", lines_in_config(*config.preview));
+  for (const PreviewEntry* preview : previews) text += preview_section(*preview, previews.size());
   if (const ExemplarEntry* exemplar = exemplar_of(config, job); exemplar && !exemplar->is_filled)
     text += exemplar_section(*exemplar);
   return text + method_section(config.methods[job.method]);
 }
 
 Json settings_by_content(Json settings) {
+  // Files of a list are numbered: "environment_0".
   const auto forget = [](Json& table, const Json& files) {
-    for (const auto& [key, hash] : files.items()) table.erase(key);
+    for (const auto& [key, hash] : files.items()) {
+      table.erase(key);
+      table.erase(key.substr(0, key.rfind('_')));
+    }
   };
   if (!settings.is_object()) return settings;
   if (settings.contains("files")) forget(settings["method"], settings["files"]);
   if (settings.contains("preview") && settings["preview"].contains("files"))
     forget(settings["preview"], settings["preview"]["files"]);
+  if (settings.contains("previews"))
+    for (Json& preview : settings["previews"])
+      if (preview.contains("files")) forget(preview, preview["files"]);
   return settings;
 }
 

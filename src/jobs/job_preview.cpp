@@ -1,6 +1,9 @@
 #include "jobs/job_preview.h"
 
+#include <algorithm>
+
 #include "core/error.h"
+#include "jobs/plan.h"
 #include "jobs/preview_files.h"
 #include "jobs/solid_texture.h"
 #include "runs/map_names.h"
@@ -21,16 +24,18 @@ Volume volume_of(const Texture& texture) {
   return volume;
 }
 
-PreviewMaterial material_of(const Config& config, const ShownTexture& shown) {
+PreviewMaterial solid_material(const ShownTexture& shown) {
+  PreviewMaterial material;
+  material.volume = volume_of(shown.texture);
+  const auto* procedural = std::get_if<ProceduralParams>(&shown.method);
+  if (material.volume.slices.empty() && procedural)
+    material.solid = solid_of(*procedural, shown.random);
+  return material;
+}
+
+PreviewMaterial flat_material(const Config& config, const ShownTexture& shown) {
   const Texture& texture = shown.texture;
   PreviewMaterial material;
-  if (config.preview->mapping == Mapping::solid) {
-    material.volume = volume_of(texture);
-    const auto* procedural = std::get_if<ProceduralParams>(&shown.method);
-    if (material.volume.slices.empty() && procedural)
-      material.solid = solid_of(*procedural, shown.random);
-    return material;
-  }
   const Image colours = extract_channels(texture.image, 0, texture.image.channels < 3 ? 1 : 3);
   material.colour =
       is_coded(shown.formats.picture.encoding.pixel_type) ? linear_picture(colours) : colours;
@@ -48,59 +53,95 @@ PreviewMaterial material_of(const Config& config, const ShownTexture& shown) {
   return material;
 }
 
+// Surroundings are the same for all previews that read the same files.
+const Image& environment_of(const PreviewEntry& preview, FileHashes& hashes,
+                            PreviewEnvironments& environments) {
+  Named<std::string> key;
+  for (const fs::path& file : preview.environment) key.push_back({"", hashes.of(file)});
+  const auto kept = environments.find(key);
+  if (kept != environments.end()) return kept->second;
+  return environments.emplace(std::move(key), read_environment(preview)).first->second;
+}
+
+RenderedPreview render(const PreviewEntry& preview, PreviewMaterial result,
+                       const Image& environment, const Control& control) {
+  std::vector<PreviewMaterial> materials;
+  materials.push_back(std::move(result));
+  if (!preview.second.empty()) materials.push_back(read_texture(preview.second, preview));
+  return render_preview(preview, materials, environment, control);
+}
+
+void check_preview_of_config(const PreviewEntry& preview) {
+  if (!preview.shape.is_name()) make_mapping(preview, read_mesh(preview.shape));
+  if (const Image around = read_environment(preview); !around.empty())
+    latlong_picture(around, preview.environment_kind);
+  if (!preview.second.empty()) {
+    PreviewParams small = preview;
+    small.size = {1, 1};
+    read_texture(preview.second, small);
+  }
+}
+
 }  // namespace
 
-Named<fs::path> preview_files(const Config& config) {
+Named<fs::path> preview_files(const PreviewEntry& preview) {
   Named<fs::path> files;
-  if (!config.preview) return files;
-  const PreviewParams& params = *config.preview;
-  for (const fs::path& file : params.environment)
+  for (const fs::path& file : preview.environment)
     files.push_back({fmt::format("environment_{}", files.size()), file});
-  if (!params.shape.is_name()) files.push_back({"shape", params.shape});
+  if (!preview.shape.is_name()) files.push_back({"shape", preview.shape});
+  for (const auto& [map, file] : texture_files(preview.second, preview))
+    files.push_back({map.empty() ? "second" : "second_" + map, file});
   return files;
 }
 
-void check_preview_files(const Config& config) {
-  if (preview_files(config).empty()) return;
-  const PreviewParams& params = *config.preview;
-  try {
-    if (!params.shape.is_name()) make_mapping(params, read_mesh(params.shape));
-    if (const Image around = read_environment(params); !around.empty())
-      latlong_picture(around, params.environment_kind);
-  } catch (const Error& error) {
-    throw ConfigError("{}: preview: {}", config.file.string(), error.what());
+void check_previews(const Config& config) {
+  if (config.previews.empty()) return;
+  const Plan plan = list_jobs(config);
+  for (const PreviewEntry& preview : config.previews) {
+    const bool used = std::ranges::any_of(plan.jobs, [&](const PlannedJob& planned) {
+      return job_matches(preview.only, planned.name);
+    });
+    if (!used && !plan.jobs.empty())
+      throw ConfigError("{}: {}: only = '{}' matches no job; there are {}{}", preview.place,
+                        title_of(preview), preview.only, plan.jobs.front().name,
+                        plan.jobs.size() > 1 ? ", …" : "");
+    try {
+      check_preview_of_config(preview);
+    } catch (const Error& error) {
+      throw ConfigError("{}: {}: {}", preview.place, title_of(preview), error.what());
+    }
   }
 }
 
-Named<std::string> preview_hashes(const Config& config, FileHashes& hashes) {
+Named<std::string> preview_hashes(const PreviewEntry& preview, FileHashes& hashes) {
   Named<std::string> result;
-  for (const auto& [key, file] : preview_files(config)) result.push_back({key, hashes.of(file)});
+  for (const auto& [key, file] : preview_files(preview)) result.push_back({key, hashes.of(file)});
   return result;
 }
 
-std::string write_preview(const fs::path& folder, const std::string& name, const Config& config,
-                          const ShownTexture& shown, FileHashes& hashes,
-                          PreviewEnvironment& environment, const Control& control,
-                          std::vector<std::string>& notes) {
-  if (!config.preview) return "";
-  const PreviewParams& params = *config.preview;
-  try {
-    const PreviewMaterial material = material_of(config, shown);
-    if (auto now = preview_hashes(config, hashes); !environment.image || environment.hashes != now)
-      environment = {std::move(now), read_environment(params)};
-    const RenderedPreview rendered =
-        render_preview(params, {&material, 1}, *environment.image, control);
-    const std::string file = name + "_preview.png";
-    write_image(folder / file, shown_preview(params, rendered.picture), {});
-    for (const std::string& note : rendered.notes)
-      notes.push_back(fmt::format("preview: {}", note));
-    return file;
-  } catch (const Interrupted&) {
-    throw;
-  } catch (const Error& error) {
-    notes.push_back(fmt::format("no preview: {}", error.what()));
-    return "";
-  }
+std::vector<std::string> write_previews(const fs::path& folder, const std::string& name,
+                                        const Config& config,
+                                        const std::vector<const PreviewEntry*>& previews,
+                                        const ShownTexture& shown, FileHashes& hashes,
+                                        PreviewEnvironments& environments, const Control& control,
+                                        std::vector<std::string>& notes) {
+  std::vector<std::string> files;
+  for (const PreviewEntry* preview : previews) try {
+      const bool solid = preview->mapping == Mapping::solid;
+      const RenderedPreview rendered =
+          render(*preview, solid ? solid_material(shown) : flat_material(config, shown),
+                 environment_of(*preview, hashes, environments), control);
+      const std::string file = fmt::format("{}_{}.png", name, label_of(*preview));
+      write_image(folder / file, shown_preview(*preview, rendered.picture), {});
+      files.push_back(file);
+      for (const std::string& note : rendered.notes)
+        notes.push_back(fmt::format("{}: {}", title_of(*preview), note));
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const Error& error) {
+      notes.push_back(fmt::format("no {}: {}", title_of(*preview), error.what()));
+    }
+  return files;
 }
 
 }  // namespace gramloom

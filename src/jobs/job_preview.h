@@ -1,7 +1,7 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,21 +13,18 @@
 
 namespace gramloom {
 
-/// The files that the config's [preview] reads, by their keys: the surroundings, a mesh.
-Named<std::filesystem::path> preview_files(const Config& config);
+/// The files that a preview reads, by their keys: the surroundings, a mesh, a second material.
+Named<std::filesystem::path> preview_files(const PreviewEntry& preview);
 
-/// Reads them as a preview will. Throws ConfigError for what no preview can use: `check` and `run`
-/// say it before the first job.
-void check_preview_files(const Config& config);
+/// Reads the files of all previews as those will. Throws ConfigError for what no preview can use,
+/// and for one that is made of no job: `check` and `run` say it before the first job.
+void check_previews(const Config& config);
 
-/// Their hashes.
-Named<std::string> preview_hashes(const Config& config, FileHashes& hashes);
+/// The hashes of its files.
+Named<std::string> preview_hashes(const PreviewEntry& preview, FileHashes& hashes);
 
-/// The config's surroundings, kept from job to job as long as their files stay the same.
-struct PreviewEnvironment {
-  Named<std::string> hashes;  // of all that the preview reads, when it was read
-  std::optional<Image> image;
-};
+/// Surroundings by the hashes of their files, kept from job to job.
+using PreviewEnvironments = std::map<Named<std::string>, Image>;
 
 /// What a job made, to be shown.
 struct ShownTexture {
@@ -37,13 +34,14 @@ struct ShownTexture {
   const OutputFormats& formats;
 };
 
-/// Renders a job's texture as the config's [preview] says, and writes it as `name`_preview.png in
-/// `folder`. Returns the file's name; "" where there is none, and why in the notes: a texture that
-/// the preview does not suit is a texture all the same. Surroundings are read when they are not
-/// those that are kept.
-std::string write_preview(const std::filesystem::path& folder, const std::string& name,
-                          const Config& config, const ShownTexture& shown, FileHashes& hashes,
-                          PreviewEnvironment& environment, const Control& control,
-                          std::vector<std::string>& notes);
+/// Renders a job's texture as each of these previews of the config says, and writes them as
+/// `name`_preview.png in `folder`, or `name`_preview_NAME.png. Returns the files' names; where one
+/// is missing, the notes say why: a texture that a preview does not suit is a texture all the same.
+std::vector<std::string> write_previews(const std::filesystem::path& folder,
+                                        const std::string& name, const Config& config,
+                                        const std::vector<const PreviewEntry*>& previews,
+                                        const ShownTexture& shown, FileHashes& hashes,
+                                        PreviewEnvironments& environments, const Control& control,
+                                        std::vector<std::string>& notes);
 
 }  // namespace gramloom

@@ -222,10 +222,11 @@ std::vector<KeyList> table_lists() {
     list.summary = "directs the textures of this config";
     lists.push_back(std::move(list));
   }
-  for (KeyList& list : named_lists<SurfaceParams, PreviewParams>()) {
-    list.name = fmt::format("[{}]", list.name);
-    lists.push_back(std::move(list));
-  }
+  lists.push_back({"[surface]", std::string(SurfaceParams::summary), {}, keys_of<SurfaceParams>()});
+  lists.push_back({"[preview]",
+                   fmt::format("{}; [[preview]] where there are several", PreviewParams::summary),
+                   {},
+                   keys_of<PreviewEntry>()});
   lists.push_back(
       {"[baseline]", "how far a run may be from an earlier one", {}, keys_of<BaselineLimits>()});
   return lists;

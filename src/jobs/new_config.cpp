@@ -135,7 +135,7 @@ Plan checked_plan(const std::string& text, const fs::path& file) {
   return plan;
 }
 
-void check_name(const fs::path& file) {
+void check_new_file(const fs::path& file) {
   if (file.extension() != ".toml")
     throw ConfigError("{}: the name of a config ends with .toml", file.string());
   if (is_there(file)) throw ConfigError("{} is there already: choose another name", file.string());
@@ -146,7 +146,7 @@ void check_name(const fs::path& file) {
 }  // namespace
 
 void write_new_config(const fs::path& file, const std::vector<fs::path>& pictures) {
-  check_name(file);
+  check_new_file(file);
   const std::vector<fs::path> from =
       pictures.empty() ? std::vector{models_folder().parent_path() / "data" / "pebbles.png"}
                        : pictures;

@@ -67,8 +67,8 @@ void check_config(const Config& config) {
   refuse(direction.guide.has_value(), "[guide]");
   refuse(direction.mix.has_value(), "[mix]");
   refuse(direction.turn.has_value(), "[turn]");
-  refuse(config.preview.has_value(), "[preview]");
-  refuse(!maps_asked(config.surface).empty(), "[surface]");
+  refuse(!config.previews.empty(), "[preview]");
+  refuse(makes_any(config.surface), "[surface]");
 }
 
 const NeuralParams& neural_params(const Config& config, const Job& job) {

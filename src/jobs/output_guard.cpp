@@ -139,8 +139,9 @@ class Guard {
   // those made of its height.
   std::function<bool(const std::string&)> map_names(const Job& job) const {
     std::vector<std::string> made = maps_asked(config_.surface);
+    if (config_.surface.guess) made.insert(made.end(), {"height", "roughness"});
     if (config_.coordinates) made.emplace_back("coordinates");
-    if (config_.preview) made.emplace_back("preview");
+    for (const PreviewEntry& preview : config_.previews) made.push_back(label_of(preview));
     if (job.exemplar)
       return [&maps = config_.exemplars[*job.exemplar].maps, made](const std::string& name) {
         return maps.contains(name) || contains(made, name);

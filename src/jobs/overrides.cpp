@@ -28,18 +28,20 @@ std::string name_of(const toml::table& table) { return table["name"].value_or(st
 [[noreturn]] void fail_unknown_name(toml::table& config, std::string_view kind,
                                     const std::string& name, const std::string& option) {
   std::vector<std::string> names;
-  for (const toml::table* table : section(config, kind)) names.push_back(name_of(*table));
+  for (const toml::table* table : tables_of(config, kind))
+    if (const std::string known = name_of(*table); !known.empty()) names.push_back(known);
   const std::string guess = closest_word(name, names);
   throw ConfigError("--set {}: no {} is called '{}' ({})", option, kind, name,
-                    guess.empty() ? fmt::format("there are {}", fmt::join(names, ", "))
-                                  : fmt::format("did you mean '{}'?", guess));
+                    names.empty()   ? "none has a name"
+                    : guess.empty() ? fmt::format("there are {}", fmt::join(names, ", "))
+                                    : fmt::format("did you mean '{}'?", guess));
 }
 
 // "method.NAME.key=value": into one table of a section. A name may have dots and equals signs, a
 // key has neither. False: not of this form.
 bool assign_in_section(toml::table& config, std::string_view kind, const std::string& option) {
   if (!option.starts_with(fmt::format("{}.", kind))) return false;
-  for (toml::table* table : section(config, kind)) {
+  for (toml::table* table : tables_of(config, kind)) {
     const std::string before_key = fmt::format("{}.{}.", kind, name_of(*table));
     const std::size_t equals = option.find('=', before_key.size());
     if (!option.starts_with(before_key) || equals == std::string::npos) continue;
@@ -62,6 +64,18 @@ bool assign_in_table(toml::table& config, std::string_view name, const std::stri
   if (!path.starts_with(prefix)) return false;
   if (!single_section(config, name)) config.insert(name, toml::table());
   assign(*single_section(config, name), path.substr(prefix.size()), value, option);
+  return true;
+}
+
+// "preview.NAME.key=value" into one preview, "preview.key=value" into all. False: not of this form.
+bool assign_in_previews(toml::table& config, const std::string& path, std::string_view value,
+                        const std::string& option) {
+  const std::string prefix = "preview.";
+  if (!path.starts_with(prefix)) return false;
+  if (assign_in_section(config, "preview", option)) return true;
+  if (!config.contains("preview")) config.insert("preview", toml::table());
+  for (toml::table* table : tables_of(config, "preview"))
+    assign(*table, path.substr(prefix.size()), value, option);
   return true;
 }
 
@@ -108,6 +122,12 @@ std::vector<toml::table*> section(toml::table& config, std::string_view name) {
   return tables;
 }
 
+std::vector<toml::table*> tables_of(toml::table& config, std::string_view name) {
+  toml::node* node = config.get(name);
+  if (node && node->is_table()) return {node->as_table()};
+  return section(config, name);
+}
+
 toml::table* single_section(toml::table& config, std::string_view name) {
   toml::node* node = config.get(name);
   if (node && !node->is_table())
@@ -128,7 +148,7 @@ void apply_override(toml::table& config, const std::string& option) {
            !assign_in_section(config, "model", option) &&
            !assign_in_table(config, "baseline", key, value, option) &&
            !assign_in_table(config, "surface", key, value, option) &&
-           !assign_in_table(config, "preview", key, value, option) &&
+           !assign_in_previews(config, key, value, option) &&
            !assign_in_direction(config, key, value, option))
     assign_in_methods(config, key, value, option);
 }

@@ -14,6 +14,9 @@ std::vector<std::string> config_keys();
 /// it is no list of tables.
 std::vector<toml::table*> section(toml::table& config, std::string_view name);
 
+/// The tables of a section that may be one, [section], or several, [[section]].
+std::vector<toml::table*> tables_of(toml::table& config, std::string_view name);
+
 /// The [section] table of a config, or none. Throws ConfigError when it is no table.
 toml::table* single_section(toml::table& config, std::string_view name);
 

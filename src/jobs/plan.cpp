@@ -110,8 +110,8 @@ Cost cost_of_finishing(const Config& config, const ExemplarFacts& facts, const J
   Cost cost = cost_of_files(config, facts);
   if (makes_maps(config, job))
     cost = one_after_the_other(cost, estimate_maps(config.surface, config.size));
-  if (config.preview)
-    cost = one_after_the_other(cost, estimate_preview(*config.preview, config.size));
+  for (const PreviewEntry* preview : previews_of(config, job))
+    cost = one_after_the_other(cost, estimate_preview(*preview, config.size));
   return cost;
 }
 

@@ -86,7 +86,7 @@ void read_map(const std::string& name, const fs::path& file, PreviewMaterial& ma
   }
 }
 
-PreviewMaterial read_texture(const TextureFiles& files) {
+PreviewMaterial read_files(const TextureFiles& files) {
   PreviewMaterial material;
   if (!files.picture.empty()) material.colour = read_colours(files.picture);
   for (const auto& [name, file] : files.maps) read_map(name, file, material);
@@ -180,7 +180,7 @@ std::vector<PreviewMaterial> read_materials(const PreviewWork& work,
     materials.push_back(
         is_name(texture.picture.string())
             ? procedural_material(texture.picture.string(), work.set, solid, work.params.size)
-            : read_texture(texture));
+            : read_files(texture));
   return materials;
 }
 
@@ -218,6 +218,24 @@ Image read_environment(const PreviewParams& params) {
   std::vector<Image> faces;
   for (const fs::path& file : params.environment) faces.push_back(read_colours(file));
   return sky_box_strip(faces);
+}
+
+std::map<std::string, fs::path> texture_files(const FileOrName& texture,
+                                              const PreviewParams& params) {
+  if (texture.empty() || texture.is_name()) return {};
+  TextureFiles files{texture, {}};
+  std::vector<std::string> found;
+  find_beside(files, asks_for_relief(params), found);
+  files.maps.emplace("", texture);
+  return std::move(files.maps);
+}
+
+PreviewMaterial read_texture(const FileOrName& texture, const PreviewParams& params) {
+  if (texture.is_name())
+    return procedural_material(texture.string(), {}, params.mapping == Mapping::solid, params.size);
+  TextureFiles files{texture, texture_files(texture, params)};
+  files.maps.erase("");
+  return read_files(files);
 }
 
 PreviewFile make_preview(const PreviewWork& work, const fs::path& output, const Control& control) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,14 @@ Image read_environment(const PreviewParams& params);
 inline bool is_coded(PixelType type) {
   return type == PixelType::uint8 || type == PixelType::uint16;
 }
+
+/// The files of a texture by its maps, the picture's own by "": the picture of this name, and what
+/// lies beside it. None of a procedural texture.
+std::map<std::string, std::filesystem::path> texture_files(const FileOrName& texture,
+                                                           const PreviewParams& params);
+/// That texture, or the procedural one of this name, for such a preview. Throws Error for what
+/// cannot be read, ConfigError for a name that no procedural texture has.
+PreviewMaterial read_texture(const FileOrName& texture, const PreviewParams& params);
 
 struct PreviewFile {
   std::vector<std::string> used;  // maps that were found beside the pictures: a line each

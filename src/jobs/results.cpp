@@ -42,8 +42,9 @@ OutputFormat format_of_map(const Config& config, const ExemplarFile& file) {
 }
 
 // Heights and masks have one channel and need finer steps than colours.
-OutputFormat format_of_own_map(const Image& map, const Image& texture, const OutputFormat& format) {
-  if (map.channels == texture.channels) return format;
+OutputFormat format_of_own_map(const std::string& name, const Image& map, const Image& texture,
+                               const OutputFormat& format) {
+  if (map.channels == texture.channels && name != "height") return format;
   const PixelType type = format.encoding.pixel_type;
   return {
       format.extension, {type == PixelType::uint8 ? PixelType::uint16 : type, "", {}}, 0, 1, {}};
@@ -96,7 +97,7 @@ OutputFormats output_formats(const Config& config, const std::vector<ExemplarFil
   const std::vector<std::string> made = maps_asked(config.surface);
   for (const auto& [name, map] : texture.maps)
     if (!formats.maps.contains(name) && std::find(made.begin(), made.end(), name) == made.end())
-      formats.maps[name] = format_of_own_map(map, texture.image, formats.picture);
+      formats.maps[name] = format_of_own_map(name, map, texture.image, formats.picture);
   for (const std::string& name : made)
     if (texture.maps.contains(name))
       formats.maps[name] =

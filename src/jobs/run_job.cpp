@@ -136,7 +136,7 @@ void write_results(Run& run, const JobWork& work, Texture joined, const TraceLog
   if (group) own_rows = std::exchange(joined.image, first_row(joined.image));
   Texture texture = split_layers(std::move(joined), run.files);
   record.notes = run.notes;
-  add_surface_maps(texture, run.config, record.notes);
+  add_surface_maps(texture, run.config, work.planned.job, record.notes);
   const OutputFormats formats = output_formats(run.config, run.files, texture);
   const WrittenTexture written =
       group ? write_together(*group, own_rows, run.config, run.files, files.folder, files.name,
@@ -150,10 +150,11 @@ void write_results(Run& run, const JobWork& work, Texture joined, const TraceLog
   else if (run.config.coordinates)
     record.files.push_back(write_arrangement(
         files.folder, files.name, arrangement_of(run.source, work.request, run.filled_at)));
-  const std::string preview = write_preview(
-      files.folder, files.name, run.config, {work.method, work.request.random, texture, formats},
-      run.hashes, run.environment, shown_work(run), record.notes);
-  if (!preview.empty()) record.files.push_back(preview);
+  std::ranges::move(write_previews(files.folder, files.name, run.config,
+                                   previews_of(run.config, work.planned.job),
+                                   {work.method, work.request.random, texture, formats}, run.hashes,
+                                   run.environments, shown_work(run), record.notes),
+                    std::back_inserter(record.files));
   record.notes.insert(record.notes.end(), written.notes.begin(), written.notes.end());
   record.texture = file_hash(files.folder / record.files.front());
   record.loss = summarise(trace.trace());
@@ -171,7 +172,7 @@ JobWork begin_work(Run& run, const PlannedJob& planned, const JobFiles& files, J
   const Method& method = run.config.methods[job.method].method;
   const Request& request = request_of(run, job);
   InputHashes inputs{run.loaded->hashes, run.loaded->direction, method_hashes(method, run.hashes),
-                     preview_hashes(run.config, run.hashes)};
+                     preview_hashes(run.config, job, run.hashes)};
   record.settings = job_settings(run.config, job, inputs);
   record.network = network_of(method);
   const std::string identity = hash_of(to_text(record.settings) + std::string(version()));

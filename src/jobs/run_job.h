@@ -43,7 +43,7 @@ struct Run {
   std::optional<Corner> filled_at = {};  // where it lies in the texture, if it is the exemplar
   std::vector<ExemplarStatistics> statistics = {};  // of its pictures, for the scores
 
-  PreviewEnvironment environment = {};  // of the previews
+  PreviewEnvironments environments = {};  // of the previews
 
   bool lost = false;    // of options.group: what they did together has failed, and they are apart
   bool halted = false;  // one of it was told to stop

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 Plan look_ahead(const Config& config, const RunOptions& options) {
   const NothingToKeep scope;
-  check_preview_files(config);
+  check_previews(config);
   Plan plan = make_plan(config, options.only);
   if (options.shard) select_shard(plan, *options.shard);
   if (options.group) estimate_together(config, plan, options.group->size());

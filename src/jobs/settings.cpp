@@ -77,6 +77,19 @@ void add_direction(const Direction& direction, const Named<std::string>& hashes,
     settings["fill"]["mask"] = direction.fill->mask.string();
 }
 
+// The one without a name as "preview", the others in "previews". Which jobs have it does not count.
+void add_previews(const std::vector<const PreviewEntry*>& previews,
+                  const Named<Named<std::string>>& files, const fs::path& folder, Json& settings) {
+  for (std::size_t i = 0; i < previews.size(); ++i) {
+    const PreviewEntry& preview = *previews[i];
+    const PreviewParams& params = preview;
+    Json& own = preview.name.empty() ? settings["preview"] : settings["previews"][preview.name];
+    own = fields_to_json(params, folder);
+    if (!preview.second.empty()) own["second"] = value_to_json(preview.second, folder);
+    if (!files[i].second.empty()) own["files"] = to_json_value(files[i].second);
+  }
+}
+
 }  // namespace
 
 Json method_to_json(const Method& method, const fs::path& folder) {
@@ -108,18 +121,23 @@ Json job_settings(const Config& config, const Job& job, const InputHashes& input
   settings["pixel_type"] = value_to_json(config.pixel_type, {});
   if (config.coordinates) settings["coordinates"] = true;
   if (makes_maps(config, job)) settings["surface"] = fields_to_json(config.surface, {});
-  if (config.preview) {
-    settings["preview"] = fields_to_json(*config.preview, config.file.parent_path());
-    if (!inputs.preview.empty()) settings["preview"]["files"] = to_json_value(inputs.preview);
-  }
+  add_previews(previews_of(config, job), inputs.previews, config.file.parent_path(), settings);
   // As a record will hold it: a name may have bytes that are no UTF-8.
   return parse_json(to_text(settings));
 }
 
 bool makes_maps(const Config& config, const Job& job) {
-  if (maps_asked(config.surface).empty()) return false;
-  return !job.exemplar ||
-         !height_among(config.exemplars[*job.exemplar].maps, config.surface).empty();
+  const bool asked = !maps_asked(config.surface).empty();
+  if (!job.exemplar) return asked;
+  return config.surface.guess ||
+         (asked && !height_among(config.exemplars[*job.exemplar].maps, config.surface).empty());
+}
+
+Named<Named<std::string>> preview_hashes(const Config& config, const Job& job, FileHashes& hashes) {
+  Named<Named<std::string>> result;
+  for (const PreviewEntry* preview : previews_of(config, job))
+    result.push_back({preview->name, preview_hashes(*preview, hashes)});
+  return result;
 }
 
 InputHashes input_hashes(const Config& config, const Job& job, FileHashes& hashes) {
@@ -127,7 +145,7 @@ InputHashes input_hashes(const Config& config, const Job& job, FileHashes& hashe
   if (job.exemplar) inputs.exemplar = exemplar_hashes(config.exemplars[*job.exemplar], hashes);
   inputs.direction = direction_hashes(config.direction, hashes);
   inputs.method = method_hashes(config.methods[job.method].method, hashes);
-  inputs.preview = preview_hashes(config, hashes);
+  inputs.previews = preview_hashes(config, job, hashes);
   return inputs;
 }
 
@@ -135,8 +153,9 @@ Json config_to_json(const Config& config) {
   const fs::path folder = config.file.parent_path();
   Json json = fields_to_json(config, folder);
   json["baseline"] = fields_to_json(config.baseline, folder);
-  if (!maps_asked(config.surface).empty()) json["surface"] = fields_to_json(config.surface, folder);
-  if (config.preview) json["preview"] = fields_to_json(*config.preview, folder);
+  if (makes_any(config.surface)) json["surface"] = fields_to_json(config.surface, folder);
+  for (const PreviewEntry& preview : config.previews)
+    json["preview"].push_back(fields_to_json(preview, folder));
   for_each_direction(config.direction, [&]<class Entry>(const std::optional<Entry>& entry) {
     if (entry) json[std::string(Entry::section)] = fields_to_json(*entry, folder);
   });

@@ -14,17 +14,20 @@ Json method_to_json(const Method& method, const std::filesystem::path& folder);
 
 /// What the files that a job reads hold.
 struct InputHashes {
-  std::vector<std::string> exemplar;  // of its pictures, in the order of files_of()
-  Named<std::string> direction;       // of [fill] and its like, by section and key
-  Named<std::string> method;          // by the names of the parameters
-  Named<std::string> preview;         // likewise
+  std::vector<std::string> exemplar;   // of its pictures, in the order of files_of()
+  Named<std::string> direction;        // of [fill] and its like, by section and key
+  Named<std::string> method;           // by the names of the parameters
+  Named<Named<std::string>> previews;  // of each preview of the job, by its name
 
   friend bool operator==(const InputHashes&, const InputHashes&) = default;
 };
 
-/// Whether [surface] makes maps of the job's texture: of a height among its exemplar's maps, or of
-/// a procedural texture.
+/// Whether [surface] makes maps of the job's texture: of a height among its exemplar's maps, which
+/// may be guessed, or of a procedural texture.
 bool makes_maps(const Config& config, const Job& job);
+
+/// The hashes of what the job's previews read, by their names.
+Named<Named<std::string>> preview_hashes(const Config& config, const Job& job, FileHashes& hashes);
 
 InputHashes input_hashes(const Config& config, const Job& job, FileHashes& hashes);
 

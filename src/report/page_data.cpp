@@ -102,7 +102,7 @@ void add_directing_pictures(const RunOnDisk& run, const std::string& name, Shown
 void add_map(SurfaceView& view, const JobRecord& record, const std::string& map,
              const std::string& file) {
   const std::string known = material_map_of(record, map);
-  if (known.empty() || known == "metalness" || !view.files.emplace(known, file).second) return;
+  if (known.empty() || !view.files.emplace(known, file).second) return;
   if (const auto green = record.normals.find(map); green != record.normals.end())
     view.green = green->second;
 }

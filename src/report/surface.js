@@ -5,7 +5,7 @@ const surface = {
   yaw: -0.3, pitch: -0.25, lightYaw: -0.6, lightPitch: 0.7, repeat: 1, depth: 0.04, drags: 'turn',
   off: new Set(),  // maps that are switched off
 };
-const surfaceMaps = ['normal', 'height', 'occlusion', 'roughness'];
+const surfaceMaps = ['normal', 'height', 'occlusion', 'roughness', 'metalness'];
 
 // --- the data: each script calls surfaceData() with its own -------------------------------------
 
@@ -46,9 +46,10 @@ precision highp float;
 uniform vec2 size;            // of the canvas
 uniform mat3 turn;            // from the object's space to the eye's
 uniform vec3 light;           // direction, in the eye's space
-uniform bool wall, hasNormal, hasHeight, useNormal, useHeight, useOcclusion, useRoughness;
+uniform bool wall, hasNormal, hasHeight, useNormal, useHeight, useOcclusion, useRoughness,
+  useMetalness;
 uniform float repeats, depth, strength, greenUp;  // depth in widths of the picture; strength in texels
-uniform sampler2D colourMap, normalMap, heightMap, occlusionMap, roughnessMap;
+uniform sampler2D colourMap, normalMap, heightMap, occlusionMap, roughnessMap, metalnessMap;
 out vec4 shown;
 
 vec2 gradientX, gradientY;    // of the picture's coordinates, per pixel
@@ -135,9 +136,15 @@ void main() {
   if (useHeight && facing > 0.0) facing *= shadow(at, lamp);
   vec3 halfway = normalize(lamp + eye);
   float sharp = 2.0 / pow(rough, 4.0);
-  float gloss = 0.04 * (sharp + 2.0) / 8.0 * pow(max(dot(bump, halfway), 0.0), sharp);
-  vec3 sum = colour * (0.16 * occlusion * (0.75 + 0.25 * (turn * (frame * bump)).y) + 0.95 * facing)
-    + min(gloss, 2.0) * facing;
+  float gloss = (sharp + 2.0) / 8.0 * pow(max(dot(bump, halfway), 0.0), sharp);
+  // A metal has no colour but that of what it mirrors: the lamp, and a studio, light above.
+  float metal = useMetalness ? clamp(look(metalnessMap, at).r, 0.0, 1.0) : 0.0;
+  vec3 mirrors = mix(vec3(0.04), colour, metal);
+  float above = (turn * (frame * reflect(-eye, bump))).y;
+  float studio = mix(0.08, 0.7, smoothstep(-0.2 - rough, 0.2 + rough, above));
+  vec3 sum = colour * (1.0 - metal) *
+      (0.16 * occlusion * (0.75 + 0.25 * (turn * (frame * bump)).y) + 0.95 * facing)
+    + min(mirrors * gloss, 2.0) * facing + colour * metal * studio * occlusion;
   shown = vec4(mix(1.055 * pow(max(sum, 0.0), vec3(1.0 / 2.4)) - 0.055, 12.92 * sum,
                    lessThan(sum, vec3(0.0031308))), 1);
 }`;
@@ -237,7 +244,8 @@ function paint() {
     useNormal: on('normal') && (has('normal') || has('height')),
     useHeight: on('height') && has('height') && surface.depth > 0,
     useOcclusion: on('occlusion') && has('occlusion'),
-    useRoughness: on('roughness') && has('roughness') };
+    useRoughness: on('roughness') && has('roughness'),
+    useMetalness: on('metalness') && has('metalness') };
   for (const [name, value] of Object.entries(flags)) gl.uniform1i(uniforms[name], value);
   gl.uniform2f(uniforms.size, canvas.width, canvas.height);
   gl.uniformMatrix3fv(uniforms.turn, false, turned());
@@ -307,7 +315,7 @@ const isLit = (subject) => ['ball', 'wall'].includes(view.surface) && Boolean(su
 
 /** Where nothing can be drawn live: a rendered preview, or a line that says why. */
 function surfaceFallback(subject, why) {
-  const preview = subject.views.find(({ label }) => label === 'preview');
+  const preview = subject.views.find(({ label }) => /^preview(_|$)/.test(label));
   return preview
     ? [el('img', { class: 'surface', src: address(preview.file), alt: `${describe(subject)}, rendered` }),
       el('p', { class: 'small' }, why, ' This is the rendered preview.')]

@@ -106,12 +106,17 @@ Json maps_of(const fs::path& folder, const SurfaceView& view, double& strength) 
 std::string surface_view_file(const fs::path& folder, const std::string& name,
                               const SurfaceView& view) {
   const fs::path shown = fs::path("page") / (name + ".view.js");
-  // What comes before the pictures, and must be as the view has it in an older script too.
-  const std::string begin = fmt::format("surfaceData({}, {{\"tile\":\"{}\",\"green\":\"{}\",",
-                                        to_text(Json(shown.generic_string()), -1, true),
-                                        to_word(view.tile), to_word(view.green));
   std::vector<fs::path> files;
-  for (const auto& [kind, file] : view.files) files.push_back(folder / file);
+  std::string kinds;
+  for (const auto& [kind, file] : view.files) {
+    files.push_back(folder / file);
+    kinds += kind + " ";
+  }
+  // What comes before the pictures, and must be as the view has it in an older script too.
+  const std::string begin =
+      fmt::format("surfaceData({}, {{\"tile\":\"{}\",\"green\":\"{}\",\"kinds\":\"{}\",",
+                  to_text(Json(shown.generic_string()), -1, true), to_word(view.tile),
+                  to_word(view.green), kinds);
   const auto time = newest_time(files);
   if (has_time(folder / shown, time) && read_text(folder / shown).starts_with(begin))
     return shown.generic_string();

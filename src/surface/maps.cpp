@@ -16,6 +16,8 @@ std::vector<std::string> maps_asked(const MapParams& params) {
   return names;
 }
 
+bool makes_any(const SurfaceParams& params) { return params.guess || !maps_asked(params).empty(); }
+
 std::map<std::string, Image> maps_of_height(const Image& height, const MapParams& params,
                                             Tile wraps) {
   check_fields(params);
@@ -38,6 +40,16 @@ Cost estimate_maps(const MapParams& params, Size size) {
   return {4 * pixels * (4 * params.normal + 3 * params.occlusion + 4 * params.curvature),
           {.shared = pixels * (1e-8 * params.normal + 1.2e-8 * lines * params.occlusion +
                                3e-8 * params.curvature)}};
+}
+
+Cost estimate_maps(const SurfaceParams& params, Size size) {
+  Cost cost = estimate_maps(static_cast<const MapParams&>(params), size);
+  if (!params.guess) return cost;
+  // Planes with what is beyond the edges, about as much again on each side.
+  const double pixels = 1.0 * size.width * size.height;
+  cost.bytes = std::max(cost.bytes, 70 * pixels);
+  cost.work.serial += 2e-7 * pixels;
+  return cost;
 }
 
 Image one_channel(const Image& height, float tolerance) {

@@ -70,6 +70,7 @@ struct MapParams {
 /// The [surface] of a config: these maps of every result that has a height.
 struct SurfaceParams : MapParams {
   std::string height = "height";
+  bool guess = false;
 
   friend bool operator==(const SurfaceParams&, const SurfaceParams&) = default;
 
@@ -78,7 +79,10 @@ struct SurfaceParams : MapParams {
         MapParams::fields(),
         std::tuple{Field{"height", &SurfaceParams::height,
                          "the exemplar's map that is the height, of one channel; 'height' where a "
-                         "texture has none of this name"}});
+                         "texture has none of this name"},
+                   Field{"guess", &SurfaceParams::guess,
+                         "guess height and roughness from the colours of a texture whose "
+                         "exemplar has no height, as 'gramloom maps --from-photo' does"}});
   }
 };
 
@@ -89,11 +93,14 @@ std::string height_among(const Maps& maps, const SurfaceParams& params) {
   return maps.contains("height") ? "height" : "";
 }
 
-/// What making them takes for a height of this size.
+/// What making them takes for a height of this size, and for that, if it is guessed.
 Cost estimate_maps(const MapParams& params, Size size);
+Cost estimate_maps(const SurfaceParams& params, Size size);
 
 /// The names of the maps that are asked for: "normal", "occlusion", "curvature".
 std::vector<std::string> maps_asked(const MapParams& params);
+/// Whether any map is made.
+bool makes_any(const SurfaceParams& params);
 
 /// These maps of a height map, by name, as they stand in files: normals as colours. `wraps`: the
 /// axes on which the map tiles. Throws Error for a height map of more than one channel.

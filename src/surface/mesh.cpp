@@ -75,7 +75,8 @@ void check_mesh(const Mesh& mesh, const std::string& name) {
          !(std::isfinite(mesh.coordinates[i].u) && std::isfinite(mesh.coordinates[i].v))))
       throw Error("{}: vertex {} has a value that is not a finite number", name, i + 1);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    if (!has_area(mesh, mesh.triangles[i])) throw Error("{}: triangle {} has no area", name, i + 1);
+    if (!has_area(mesh, mesh.triangles[i]))
+      throw Error("{}: triangle {} has no area: its corners must not lie on one line", name, i + 1);
 }
 
 std::vector<std::uint32_t> same_places(const Mesh& mesh, float distance) {

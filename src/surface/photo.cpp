@@ -173,9 +173,14 @@ Image without_shading(const Image& photo, double scale, double amount, ColourCas
   return result;
 }
 
-Image height_guess(const Image& colour, double scale, double detail, bool bright_is_deep) {
-  const cv::Mat brightness = luminance_of(colour);
-  const double coarsest = std::max(1.0, scale * shorter_side(brightness) / 2);
+Image height_guess(const Image& colour, double scale, double detail, bool bright_is_deep,
+                   Tile wraps) {
+  const double coarsest = std::max(1.0, scale * std::min(colour.width, colour.height) / 2);
+  // Beyond edges that meet the picture goes on, as far as the widest blur looks.
+  const auto reach = static_cast<int>(std::ceil(3 * coarsest));
+  const int across = tiles_x(wraps) ? reach : 0, down = tiles_y(wraps) ? reach : 0;
+  cv::Mat brightness;
+  cv::copyMakeBorder(luminance_of(colour), brightness, down, down, across, across, cv::BORDER_WRAP);
   const int octaves = 1 + static_cast<int>(std::floor(std::log2(coarsest)));
   cv::Mat height = cv::Mat::zeros(brightness.size(), CV_32F);
   cv::Mat coarse = blurred(brightness, coarsest);
@@ -188,6 +193,7 @@ Image height_guess(const Image& colour, double scale, double detail, bool bright
     weight *= detail;
   }
   if (bright_is_deep) height = -height;
+  height = height({across, down, colour.width, colour.height}).clone();
   const float low = quantile_of(height, 0.005), high = quantile_of(height, 0.995);
   // Of one brightness; what a blur leaves of it is rounding, more or less of it by the library.
   const double rounding = 1e-5 * cv::norm(brightness, cv::NORM_INF);

@@ -102,8 +102,10 @@ Image without_shading(const Image& photo, double scale, double amount, ColourCas
 /// bright stands higher, at each scale by itself. Bands between Gaussian blurs an octave apart,
 /// from `scale` times the shorter side down to the pixel, each weighed `detail` times the one
 /// before; half a percent of the values at each end are cut off. It is a guess: white paint on a
-/// black wall comes out as a step.
-Image height_guess(const Image& colour, double scale, double detail, bool bright_is_deep);
+/// black wall comes out as a step. `wraps`: the axes on which the picture tiles, and then its
+/// height does.
+Image height_guess(const Image& colour, double scale, double detail, bool bright_is_deep,
+                   Tile wraps = Tile::none);
 
 /// A guess of the roughness of each point from its height: `mean` on the mean height, rougher by
 /// `contrast` in the deepest place than on the highest. What lies deep is joint, dust and shade,

@@ -70,7 +70,7 @@ struct PreviewParams {
 
   double bump = 0.04;
   double displacement = 0;
-  double detail = 2;
+  double detail = 3;
   std::optional<GreenAxis> green;
   Normals normals = Normals::own;
   Pattern pattern = Pattern::checkerboard;

@@ -66,6 +66,33 @@ TEST_F(SurfaceOfJobs, ResumeKnowsThem) {
   EXPECT_FALSE(fs::exists(out("procedural/stone/seed1_normal.png"))) << "of the result before";
 }
 
+// Of what was made from one picture: as high as that is bright, at each scale, and so are its maps.
+TEST_F(SurfaceOfJobs, HeightsAreGuessedWhereAnExemplarHasNone) {
+  const std::string plain =
+      "size = [48, 40]\n[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"
+      "[[method]]\nname = 'b'\nkind = 'quilting'\npatch_size = 8\n"
+      "[[method]]\nname = 'granite'\nkind = 'procedural'\ntexture = 'granite'\nsamples = 1\n";
+  ASSERT_EQ(run_text(plain + "[surface]\nguess = true\nnormal = true\n").done, 2);
+  const JobRecord job = record("e/b/seed1");
+  EXPECT_THAT(job.files, testing::UnorderedElementsAre("seed1.png", "seed1_height.png",
+                                                       "seed1_normal.png", "seed1_roughness.png"));
+  EXPECT_THAT(job.notes, testing::Contains("height: guessed from the colours"));
+  EXPECT_EQ(read_image(out("e/b/seed1_height.png")).encoding.pixel_type, PixelType::uint16);
+  EXPECT_EQ(record("procedural/granite/seed1").files, (std::vector<std::string>{"seed1.png"}))
+      << "what is flat by its formula stays so";
+  EXPECT_EQ(resume(plain + "[surface]\nguess = true\nnormal = true\n").skipped, 2);
+  ASSERT_EQ(run_text(plain + "[surface]\nguess = true\n").done, 2);
+  EXPECT_THAT(
+      record("e/b/seed1").files,
+      testing::UnorderedElementsAre("seed1.png", "seed1_height.png", "seed1_roughness.png"));
+  // One that has a height keeps it.
+  const Image picture = read_image(folder_ / "e.png").image;
+  write_image(folder_ / "h.png", extract_channels(picture, 0, 1), {PixelType::uint16, "", {}});
+  ASSERT_EQ(run_text(exemplar(1) + "[surface]\nguess = true\nnormal = true\n").done, 1);
+  EXPECT_THAT(record("e/b/seed1").files,
+              testing::UnorderedElementsAre("seed1.png", "seed1_height.png", "seed1_normal.png"));
+}
+
 TEST_F(SurfaceOfJobs, ExemplarsHeightsToo) {
   ASSERT_EQ(run_text(exemplar(1) + normal).done, 1);
   EXPECT_EQ(record("e/b/seed1").files,
@@ -117,7 +144,8 @@ TEST_F(SurfaceOfJobs, MistakesAreOneLineWithTheirPlace) {
   EXPECT_EQ(run_text(text).done, 1) << "nobody asked";
   EXPECT_EQ(refusal("[surface]\nnormal = true\n[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"
                     "[[method]]\nname = 'b'\nkind = 'quilting'\n"),
-            "c.toml:1:2: 'surface' makes maps of heights: no exemplar has a map called 'height'");
+            "c.toml:1:2: 'surface' makes maps of heights: no exemplar has a map called 'height' "
+            "(guess = true guesses heights from the colours)");
   EXPECT_EQ(refusal("[surface]\nnormal = true\n[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"
                     "maps = { height = 'h.png', normal = 'e.png' }\n"
                     "[[method]]\nname = 'b'\nkind = 'quilting'\n"),

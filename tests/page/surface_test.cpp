@@ -14,6 +14,7 @@ using Json = nlohmann::json;
 // Humps in a grid, darker in between, with their height and maps told by it.
 void write_humps(const fs::path& folder) {
   Image colour(64, 64, 3), height(64, 64, 1), occlusion(64, 64, 1), roughness(64, 64, 1);
+  Image metalness(64, 64, 1);
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) {
       const double pi = 3.14159265358979;
@@ -21,6 +22,7 @@ void write_humps(const fs::path& folder) {
       *height.at(x, y) = h;
       *occlusion.at(x, y) = 0.2f + 0.8f * h;
       *roughness.at(x, y) = 0.9f - 0.7f * h;
+      *metalness.at(x, y) = h > 0.5f ? 1.0f : 0.0f;
       const float values[] = {0.4f + 0.4f * h, 0.4f, 0.3f};
       std::copy(std::begin(values), std::end(values), colour.at(x, y));
     }
@@ -28,6 +30,7 @@ void write_humps(const fs::path& folder) {
   write_image(folder / "h.png", height, {PixelType::uint16, "", {}});
   write_image(folder / "o.png", occlusion, {});
   write_image(folder / "r.png", roughness, {});
+  write_image(folder / "m.png", metalness, {});
 }
 
 class SurfacePage : public RunInBrowser {
@@ -38,7 +41,8 @@ class SurfacePage : public RunInBrowser {
     write_text(folder_ / "c.toml",
                "size = [64, 64]\ntile = 'both'\nscores = false\n"
                "[[exemplar]]\nname = \"it's 100% #1\"\nimage = 'e.png'\n"
-               "maps = { height = 'h.png', occlusion = 'o.png', roughness = 'r.png' }\n"
+               "maps = { height = 'h.png', occlusion = 'o.png', roughness = 'r.png', "
+               "metalness = 'm.png' }\n"
                "[[exemplar]]\nname = 'plain'\nimage = 'e.png'\n"
                "[[method]]\nname = 'q'\nkind = 'quilting'\npatch_size = 24\n");
     const Outcome outcome = gramloom(folder_, {"run", "c.toml", "--quiet"});
@@ -107,7 +111,7 @@ TEST_F(SurfacePage, WhatIsDrawnChangesWithTheLightTheTurnAndEachMap) {
     set("surface-depth", 0.12);
     EXPECT_GT(change(), 0.1);
     EXPECT_LT(change(), 1e-9) << "nothing was done";
-    for (const std::string map : {"height", "normal", "occlusion", "roughness"}) {
+    for (const std::string map : {"height", "normal", "occlusion", "roughness", "metalness"}) {
       toggle(map);
       EXPECT_GT(change(), 0.02) << map << " off";
       toggle(map);

@@ -170,5 +170,35 @@ TEST(Photo, HeightIsBrightnessAtEachScaleAndRoughnessIsDeep) {
   EXPECT_EQ(height_guess(Image({9, 9}, 3, 0.3f), 0.35, 0.75, false), Image({9, 9}, 1, 0.5f));
 }
 
+// The same picture from another place on: its height is the same one from there on.
+TEST(Photo, HeightOfAPictureThatTilesTiles) {
+  Image photo({96, 64}, 3);
+  Random random(3);
+  for (float& value : photo.pixels) value = random.uniform();
+  for (int y = 0; y < 64; ++y)  // something large besides
+    for (int x = 0; x < 96; ++x)
+      for (int c = 0; c < 3; ++c)
+        photo.at(x, y)[c] += 0.5f * std::sin(0.0654498f * static_cast<float>(x)) +
+                             0.5f * std::cos(0.0981748f * static_cast<float>(y));
+  const auto rolled = [](const Image& image) {
+    Image result(image.size(), image.channels);
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        std::copy_n(image.at((x + 40) % image.width, (y + 24) % image.height), image.channels,
+                    result.at(x, y));
+    return result;
+  };
+  const auto difference = [&](Tile wraps) {
+    const Image expected = rolled(height_guess(photo, 0.35, 0.75, false, wraps));
+    const Image found = height_guess(rolled(photo), 0.35, 0.75, false, wraps);
+    double most = 0;
+    for (std::size_t i = 0; i < found.pixels.size(); ++i)
+      most = std::max(most, std::abs(double{found.pixels[i]} - double{expected.pixels[i]}));
+    return most;
+  };
+  EXPECT_LT(difference(Tile::both), 0.01);
+  EXPECT_GT(difference(Tile::none), 0.05) << "the test sees seams";
+}
+
 }  // namespace
 }  // namespace gramloom
