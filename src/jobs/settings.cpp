@@ -77,17 +77,26 @@ void add_direction(const Direction& direction, const Named<std::string>& hashes,
     settings["fill"]["mask"] = direction.fill->mask.string();
 }
 
-// The one without a name as "preview", the others in "previews". Which jobs have it does not count.
+Json preview_settings(const PreviewEntry& preview, const Named<std::string>& files,
+                      const fs::path& folder) {
+  const PreviewParams& params = preview;
+  Json settings = fields_to_json(params, folder);
+  if (!preview.second.empty()) settings["second"] = value_to_json(preview.second, folder);
+  if (!files.empty()) settings["files"] = to_json_value(files);
+  return settings;
+}
+
+// The one without a name as "preview", the others in "previews"; which other jobs have them does not
+// count.
 void add_previews(const std::vector<const PreviewEntry*>& previews,
                   const Named<Named<std::string>>& files, const fs::path& folder, Json& settings) {
+  Json named;
   for (std::size_t i = 0; i < previews.size(); ++i) {
-    const PreviewEntry& preview = *previews[i];
-    const PreviewParams& params = preview;
-    Json& own = preview.name.empty() ? settings["preview"] : settings["previews"][preview.name];
-    own = fields_to_json(params, folder);
-    if (!preview.second.empty()) own["second"] = value_to_json(preview.second, folder);
-    if (!files[i].second.empty()) own["files"] = to_json_value(files[i].second);
+    const std::string& name = previews[i]->name;
+    (name.empty() ? settings["preview"] : named[name]) =
+        preview_settings(*previews[i], files[i].second, folder);
   }
+  if (!named.empty()) settings["previews"] = std::move(named);
 }
 
 }  // namespace

@@ -69,11 +69,16 @@ function exemplarOf(job, exemplar) {
 
 /** The job's resolved settings as a config that makes this picture and no other. */
 function configOf(job) {
-  const { method = {}, exemplar, seed, files, guide, mix, turn, fill, ...rest } = job.settings ?? {};
+  const { method = {}, exemplar, seed, files, guide, mix, turn, fill, surface, preview, previews = {},
+    ...rest } = job.settings ?? {};
   if (fill) delete rest.size;  // it has that of its picture
   const asked = Object.keys({ guide, mix, turn, fill })
     .filter((section) => job.settings?.[section] && data.run.direction?.[section]);
+  const shown = [preview, ...Object.entries(previews).map(([name, own]) => ({ name, ...own }))];
   return [`seeds = [${seed ?? job.seed}]`, ...tomlLines(rest),
+    ...(surface ? ['', '[surface]', ...tomlLines(surface)] : []),
+    ...shown.filter(Boolean).flatMap(({ files: hashes, ...own }) =>
+      ['', '[[preview]]', ...tomlLines(onlySet(own))]),
     ...asked.flatMap((section) => ['', `[${section}]`, ...tomlLines(onlySet(data.run.direction[section]))]),
     ...exemplarOf(job, exemplar),
     '', '[[method]]', `name = ${toToml(job.method)}`, ...tomlLines(method)].join('\n') + '\n';

@@ -38,7 +38,10 @@ std::string config_text() {
          "[[method]]\nname = \"patch 'n' match\"\nkind = 'patchmatch'\n"
          "[[method]]\nname = 'quilting'\nkind = 'quilting'\npatch_size = 12\n"
          "[[method]]\nname = 'histogram'\nkind = 'histogram'\n"
-         "[[method]]\nname = 'stone'\nkind = 'procedural'\ntexture = 'pebbles'\n";
+         "[[method]]\nname = 'stone'\nkind = 'procedural'\ntexture = 'pebbles'\n"
+         "[[preview]]\nname = 'a & b'\nonly = '*/quilting/seed2'\nsize = 24\nsamples = 1\n"
+         "second = 'f.png'\n"
+         "[[preview]]\nonly = '*/quilting/seed2'\nsize = 24\nsamples = 1\nshape = 'cube'\n";
 }
 
 class Page : public RunInBrowser {
@@ -309,6 +312,11 @@ TEST_F(Page, ItsCommandAndItsSettingsMakeThePictureAgain) {
   const Outcome alone = gramloom(folder_, {"run", "settings.toml", "--quiet"});
   EXPECT_EQ(alone.exit_code, 0) << alone.errors;
   EXPECT_TRUE(read_text(folder_ / "out/settings" / job) == picture);
+  for (const std::string preview : {"preview", "preview_a & b"}) {
+    const std::string file = odd_name + "/quilting/seed2_" + preview + ".png";
+    EXPECT_TRUE(read_text(folder_ / "out/settings" / file) == read_text(folder_ / "out/c" / file))
+        << preview;
+  }
   click("#viewer .code .copy");
   wait();
   EXPECT_EQ(text("#viewer .code .copy"), "copied");
