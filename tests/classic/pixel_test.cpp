@@ -19,7 +19,7 @@ constexpr auto algorithms = {PixelAlgorithm::lefebvre_hoppe, PixelAlgorithm::wei
 constexpr auto searches = {PixelSearch::coherence, PixelSearch::exact};
 
 /// Smooth random blobs; every pixel differs from the others.
-Image blobs(Size size, int channels, std::uint64_t seed = 1) {
+Image spots(Size size, int channels, std::uint64_t seed = 1) {
   Image image(size, channels);
   Random random(seed);
   for (int wave = 0; wave < 6; ++wave) {
@@ -35,7 +35,7 @@ Image blobs(Size size, int channels, std::uint64_t seed = 1) {
   return image;
 }
 
-Image chessboard(Size size, int cell) {
+Image squares(Size size, int cell) {
   Image image(size, 1);
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x)
@@ -43,7 +43,7 @@ Image chessboard(Size size, int cell) {
   return image;
 }
 
-Image stripes(Size size, int width, bool upright) {
+Image bars(Size size, int width, bool upright) {
   Image image(size, 1);
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x)
@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(Pixel, EachWay,
                          });
 
 TEST_P(EachWay, ResultPixelsAreExemplarPixels) {
-  const Image exemplar = blobs({24, 20}, 3);
+  const Image exemplar = spots({24, 20}, 3);
   const Image result = run(params(), exemplar, {{40, 30}, Tile::x});
   EXPECT_EQ(result.size(), (Size{40, 30}));
   const auto known = pixels_of(exemplar);
@@ -92,7 +92,7 @@ TEST_P(EachWay, ResultPixelsAreExemplarPixels) {
 }
 
 TEST_P(EachWay, SameBytesForAnyNumberOfThreads) {
-  const Image exemplar = blobs({30, 26}, 2);
+  const Image exemplar = spots({30, 26}, 2);
   const Target target{{33, 41}, Tile::both};
   std::vector<Image> results;
   for (const int threads : {1, 2, 8}) {
@@ -107,7 +107,7 @@ TEST_P(EachWay, SameBytesForAnyNumberOfThreads) {
 
 TEST_P(EachWay, ChessboardContinuesExactly) {
   const int cell = 3;
-  const Image result = run(params(), chessboard({24, 24}, cell), {{37, 32}, Tile::none});
+  const Image result = run(params(), squares({24, 24}, cell), {{37, 32}, Tile::none});
   for (int y = 0; y < result.height; ++y)
     for (int x = 0; x < result.width; ++x) {
       if (x >= cell) {
@@ -122,7 +122,7 @@ TEST_P(EachWay, ChessboardContinuesExactly) {
 TEST_P(EachWay, StripesContinueExactly) {
   const int width = 3;
   for (const bool upright : {false, true}) {
-    const Image result = run(params(), stripes({24, 24}, width, upright), {{37, 32}, Tile::none});
+    const Image result = run(params(), bars({24, 24}, width, upright), {{37, 32}, Tile::none});
     const int dx = upright ? width : 0, dy = upright ? 0 : width;
     for (int y = 0; y < result.height; ++y)
       for (int x = 0; x < result.width; ++x) {
@@ -152,7 +152,7 @@ double step_across(const Image& image, int at, bool columns) {
 }
 
 TEST_P(EachWay, EdgesMeetWhereAsked) {
-  const Image exemplar = blobs({40, 36}, 1);
+  const Image exemplar = spots({40, 36}, 1);
   for (const Tile tile : {Tile::x, Tile::y, Tile::both}) {
     const Image result = run(params(), exemplar, {{50, 44}, tile});
     for (const bool columns : {true, false}) {
@@ -170,7 +170,7 @@ TEST_P(EachWay, EdgesMeetWhereAsked) {
 
 TEST_P(EachWay, TinyExemplarsAndResults) {
   for (const Size size : {Size{1, 1}, Size{1, 9}, Size{9, 1}, Size{2, 2}, Size{3, 5}}) {
-    const Image exemplar = blobs(size, 2);
+    const Image exemplar = spots(size, 2);
     const auto known = pixels_of(exemplar);
     for (const Target& target : {Target{{1, 1}, Tile::both}, Target{{1, 6}, Tile::x},
                                  Target{{12, 10}, Tile::none}, Target{{11, 3}, Tile::both}}) {
@@ -187,7 +187,7 @@ TEST_P(EachWay, ConstantStaysConstant) {
 }
 
 TEST_P(EachWay, StopsWhenAsked) {
-  const Image exemplar = blobs({24, 24}, 1);
+  const Image exemplar = spots({24, 24}, 1);
   int calls = 0;
   Control control;
   control.progress = [&](const Progress&) { return ++calls < 2; };
@@ -197,7 +197,7 @@ TEST_P(EachWay, StopsWhenAsked) {
 }
 
 TEST_P(EachWay, ProgressRisesToItsEnd) {
-  const Image exemplar = blobs({24, 24}, 1);
+  const Image exemplar = spots({24, 24}, 1);
   Progress last;
   Control control;
   control.progress = [&](const Progress& p) {
@@ -215,7 +215,7 @@ TEST(Pixel, AnyNumberOfChannels) {
     for (const PixelAlgorithm algorithm : algorithms) {
       PixelParams params;
       params.algorithm = algorithm;
-      const Image result = run(params, blobs({16, 18}, channels), {{12, 20}, Tile::y});
+      const Image result = run(params, spots({16, 18}, channels), {{12, 20}, Tile::y});
       EXPECT_EQ(result.channels, channels);
     }
 }
@@ -226,7 +226,7 @@ TEST(Pixel, JitterAndLevelsAndTheGreatestRadius) {
   params.levels = 12;
   params.jitter = 1;
   params.candidates = 16;
-  const Image exemplar = blobs({20, 24}, 4);
+  const Image exemplar = spots({20, 24}, 4);
   const auto known = pixels_of(exemplar);
   for (const PixelAlgorithm algorithm : algorithms) {
     params.algorithm = algorithm;

@@ -14,7 +14,7 @@
 namespace gramloom {
 namespace {
 
-Image noise(Size size, int channels, std::uint64_t seed) {
+Image white_noise(Size size, int channels, std::uint64_t seed) {
   Image image(size, channels);
   Random random(seed);
   for (float& v : image.pixels) v = random.uniform();
@@ -33,7 +33,7 @@ TEST_P(SteerablePyramidOf, ReconstructsPerfectly) {
   const auto& [size, levels, orientations] = GetParam();
   const auto pyramid = steerable_pyramid(size, levels, orientations);
   ASSERT_EQ(pyramid.bands.size(), static_cast<std::size_t>(levels * orientations + 2));
-  const cv::Mat plane = channel_plane(noise(size, 1, 1), 0);
+  const cv::Mat plane = channel_plane(white_noise(size, 1, 1), 0);
   const cv::Mat coefficients = fourier_coefficients(plane);
   cv::Mat sum = cv::Mat::zeros(size.height, size.width, CV_32FC2);
   for (const auto& band : pyramid.bands) {
@@ -47,7 +47,7 @@ TEST_P(SteerablePyramidOf, ReconstructsPerfectly) {
 TEST_P(SteerablePyramidOf, KeepsEnergy) {
   // A tight frame: the bands' energies (mean squares) add up to the image's.
   const auto& [size, levels, orientations] = GetParam();
-  const cv::Mat plane = channel_plane(noise(size, 1, 2), 0);
+  const cv::Mat plane = channel_plane(white_noise(size, 1, 2), 0);
   const auto energy = [](const cv::Mat& m) { return m.dot(m) / static_cast<double>(m.total()); };
   double sum = 0;
   for (const auto& band : steerable_pyramid(size, levels, orientations).bands)
@@ -59,7 +59,7 @@ TEST_P(SteerablePyramidOf, KeepsEnergy) {
 // counts.
 TEST_P(SteerablePyramidOf, ReadsAndWritesNothingBesideTheCoefficients) {
   const auto& [size, levels, orientations] = GetParam();
-  const cv::Mat coefficients = fourier_coefficients(channel_plane(noise(size, 1, 3), 0));
+  const cv::Mat coefficients = fourier_coefficients(channel_plane(white_noise(size, 1, 3), 0));
   const cv::Rect inside(0, 0, size.width / 2 + 1, size.height);
   const float nothing = std::numeric_limits<float>::quiet_NaN();
   cv::Mat room(size.height + 2, size.width + 2, CV_32FC2, cv::Scalar::all(nothing));
@@ -107,7 +107,7 @@ TEST(SteerablePyramid, BandsAnswerToTheirScaleAndDirection) {
 }
 
 TEST(Pyramid, HistogramsEndEqual) {
-  const Image exemplar = noise({48, 40}, 3, 3);
+  const Image exemplar = white_noise({48, 40}, 3, 3);
   for (const Size size : {Size{48, 40}, Size{40, 48}, Size{90, 70}}) {
     const Image image =
         synthesise(PyramidParams{}, {{{exemplar}}, Target{size}, Random(1)}, Control{}).image;
@@ -133,7 +133,7 @@ std::vector<double> band_energies(const Image& image, const SteerablePyramid& py
 
 TEST(Pyramid, ConvergesToTheBandsOfAnOrientedTexture) {
   // Short streaks along x: noise averaged over 9 × 1 pixels.
-  const Image white = noise({128 + 8, 128}, 1, 4);
+  const Image white = white_noise({128 + 8, 128}, 1, 4);
   Image exemplar({128, 128}, 1);
   for (int y = 0; y < 128; ++y)
     for (int x = 0; x < 128; ++x)
@@ -161,7 +161,7 @@ TEST(Pyramid, ConvergesToTheBandsOfAnOrientedTexture) {
 
 TEST(Pyramid, ColoursStayCorrelated) {
   // Two channels of the same grain, one of it inverted: their sum is flat, and stays so.
-  Image exemplar = noise({64, 64}, 2, 5);
+  Image exemplar = white_noise({64, 64}, 2, 5);
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) exemplar.at(x, y)[1] = 1 - exemplar.at(x, y)[0];
   const Image image =

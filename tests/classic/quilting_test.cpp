@@ -101,7 +101,7 @@ TEST(Quilting, SameBytesForAnyNumberOfThreads) {
 }
 
 /// Bricks of 48 × 16 pixels in mortar of 3, with a little grain; odd rows are shifted by half.
-Image bricks(int side) {
+Image square_bricks(int side) {
   Image image(side, side, 1);
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x) {
@@ -115,7 +115,7 @@ Image bricks(int side) {
 }
 
 TEST(Quilting, DefaultsKeepTheCoursesOfBricksStraight) {
-  const Image exemplar = bricks(96);
+  const Image exemplar = square_bricks(96);
   for (const Tile tile : {Tile::none, Tile::both})
     for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
       const Image wall = quilt({}, exemplar, {{192, 192}, tile}, seed);

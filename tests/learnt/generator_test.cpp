@@ -14,7 +14,7 @@
 namespace gramloom {
 namespace {
 
-GeneratorModel three_levels(int materials = 1, int channels = 3) {
+GeneratorModel model_of_three_levels(int materials = 1, int channels = 3) {
   return some_generator({{8, 16, 3}, {4, 24, 2}, {4, 8, 1}}, channels, materials);
 }
 
@@ -41,7 +41,7 @@ Image part(const Image& image, int left, int top, Size size) {
 }
 
 TEST(Generator, MakesAPictureThatVaries) {
-  const Image image = generate(three_levels(), wanted({70, 50}), {});
+  const Image image = generate(model_of_three_levels(), wanted({70, 50}), {});
   const ChannelRange range = channel_range(image);
   for (std::size_t c = 0; c < 3; ++c) EXPECT_GT(range.high[c] - range.low[c], 0.05);
 }
@@ -147,7 +147,7 @@ class ByHand {
 };
 
 TEST(Generator, IsTheFormulaOfItsHeader) {
-  const GeneratorModel model = three_levels();
+  const GeneratorModel model = model_of_three_levels();
   const Size size{48, 32};
   EXPECT_LT(largest_difference(generate(model, wanted(size, Tile::both), {}),
                                ByHand(model, size, 5).picture()),
@@ -155,14 +155,14 @@ TEST(Generator, IsTheFormulaOfItsHeader) {
 }
 
 TEST(Generator, PartsAreThoseOfALargerPicture) {
-  const GeneratorModel model = three_levels();
+  const GeneratorModel model = model_of_three_levels();
   const Image small = generate(model, wanted({150, 90}), {});
   const Image large = generate(model, wanted({450, 310}), {});
   EXPECT_LT(largest_difference(small, part(large, 0, 0, small.size())), 1e-5);
 }
 
 TEST(Generator, RowsAreThoseOfTheWhole) {
-  const GeneratorModel model = three_levels(2, 4);
+  const GeneratorModel model = model_of_three_levels(2, 4);
   Generation asked = wanted({230, 410}, Tile::y, {0.3f, 0.7f});
   const Image whole = generate(model, asked, {});
   std::vector<float> rows;
@@ -178,7 +178,7 @@ TEST(Generator, RowsAreThoseOfTheWhole) {
 }
 
 TEST(Generator, TilesOnEachAxisAtAnySize) {
-  const GeneratorModel model = three_levels();
+  const GeneratorModel model = model_of_three_levels();
   for (const Size size : {Size{64, 64}, Size{61, 75}, Size{250, 203}}) {
     const Image image = generate(model, wanted(size, Tile::both), {});
     // A step across the edges is no larger than those inside.
@@ -195,7 +195,7 @@ TEST(Generator, TilesOnEachAxisAtAnySize) {
 }
 
 TEST(Generator, SameBytesForAnyNumberOfThreads) {
-  const GeneratorModel model = three_levels();
+  const GeneratorModel model = model_of_three_levels();
   set_thread_count(1);
   const Image one = generate(model, wanted({500, 300}), {});
   for (const int threads : {2, 3}) {
@@ -206,7 +206,7 @@ TEST(Generator, SameBytesForAnyNumberOfThreads) {
 }
 
 TEST(Generator, AConstantMapOfSharesIsThoseShares) {
-  const GeneratorModel model = three_levels(3);
+  const GeneratorModel model = model_of_three_levels(3);
   const std::vector<float> shares{0.2f, 0.5f, 0.3f};
   Generation by_map = wanted({100, 60}, Tile::x, {});
   by_map.share_map = Image(7, 5, 3);
@@ -218,7 +218,7 @@ TEST(Generator, AConstantMapOfSharesIsThoseShares) {
 }
 
 TEST(Generator, SeedsAreUnlike) {
-  const GeneratorModel model = three_levels();
+  const GeneratorModel model = model_of_three_levels();
   Generation other = wanted({64, 64});
   other.seed = 6;
   EXPECT_GT(largest_difference(generate(model, wanted({64, 64}), {}), generate(model, other, {})),
@@ -226,7 +226,7 @@ TEST(Generator, SeedsAreUnlike) {
 }
 
 TEST(Generator, MapsArePartedFromThePicture) {
-  const GeneratorModel model = three_levels(1, 4);
+  const GeneratorModel model = model_of_three_levels(1, 4);
   const Image joined = generate(model, wanted({40, 30}), {});
   const Texture texture = split_generated(joined, model.description);
   EXPECT_EQ(texture.image, extract_channels(joined, 0, 3));
@@ -235,7 +235,7 @@ TEST(Generator, MapsArePartedFromThePicture) {
 }
 
 TEST(Generator, RefusesWeightsThatDoNotFit) {
-  const GeneratorDescription two = three_levels(2).description;
+  const GeneratorDescription two = model_of_three_levels(2).description;
   GeneratorParams params;
   const auto ask = [&] { generation_of(params, two, {16, 16}, Tile::none, Random(1)); };
   params.weights = {1, 2, 3};

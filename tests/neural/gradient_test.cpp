@@ -8,7 +8,7 @@
 namespace gramloom::neural {
 namespace {
 
-struct Case {
+struct GradientCase {
   Padding padding;
   Pooling pooling;
   GramParams options;
@@ -32,10 +32,10 @@ NeuralParams grams(const GramParams& options) {
   return params;
 }
 
-class GradientTest : public testing::TestWithParam<Case> {};
+class GradientTest : public testing::TestWithParam<GradientCase> {};
 
 TEST_P(GradientTest, MatchesFiniteDifferences) {
-  const Case c = GetParam();
+  const GradientCase c = GetParam();
   const NetworkDescription description = tiny_network();
   const Network network = random_network(description, at::kDouble, c.pooling);
   const Edges edges{c.padding, c.padding};
@@ -60,8 +60,8 @@ TEST_P(GradientTest, MatchesFiniteDifferences) {
   }
 }
 
-std::vector<Case> cases() {
-  std::vector<Case> all;
+std::vector<GradientCase> gradient_cases() {
+  std::vector<GradientCase> all;
   for (const auto padding : {Padding::circular, Padding::reflect, Padding::zero, Padding::valid})
     for (const auto pooling : {Pooling::average, Pooling::max})
       all.push_back({padding, pooling, {1, true, true, true, {}}});
@@ -97,7 +97,7 @@ TEST(PyramidGradient, MatchesFiniteDifferences) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, GradientTest, testing::ValuesIn(cases()));
+INSTANTIATE_TEST_SUITE_P(Cases, GradientTest, testing::ValuesIn(gradient_cases()));
 
 }  // namespace
 }  // namespace gramloom::neural

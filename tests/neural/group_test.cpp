@@ -113,14 +113,14 @@ struct Found {
   at::Tensor gradient;
 };
 
-struct Case {
+struct GroupCase {
   NeuralParams params;
   Padding padding;
   Tile tile;
   NetworkDescription network;
 };
 
-Found found(const Case& c, const at::Tensor& whole, const Group& group) {
+Found found(const GroupCase& c, const at::Tensor& whole, const Group& group) {
   const Network network = random_network(c.network, at::kFloat);
   const MatchedNetwork matched{network, c.network, {{1, 1}, {3, 0.5}}};
   const Edges edges{tiles_x(c.tile) ? Padding::circular : c.padding,
@@ -146,7 +146,7 @@ NetworkDescription pooled_network() {
   return network;
 }
 
-std::vector<Case> cases() {
+std::vector<GroupCase> group_cases() {
   NeuralParams grams;
   grams.sliced_weight = grams.spectrum_weight = 0;
   grams.gram_weight = 1;
@@ -159,7 +159,7 @@ std::vector<Case> cases() {
   both.sliced_weight = 0.5;
   both.positions = 4096;
   both.directions = 3;
-  std::vector<Case> all;
+  std::vector<GroupCase> all;
   for (const Tile tile : {Tile::none, Tile::both})
     for (const NeuralParams& params : {shifted, sliced})
       all.push_back({params, Padding::circular, tile, pyramid_network()});
@@ -173,9 +173,9 @@ std::vector<Case> cases() {
 
 TEST(SharedLoss, IsThatOfOneProcess) {
   const at::Tensor picture = numbers({2, 131, 50}, 2).cumsum(1) * 0.3;
-  const std::vector<Case> all = cases();
+  const std::vector<GroupCase> all = group_cases();
   std::vector<Found> alone;
-  for (const Case& c : all) alone.push_back(found(c, picture, one_process()));
+  for (const GroupCase& c : all) alone.push_back(found(c, picture, one_process()));
   together(3, [&](const Group& group) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Found shared = found(all[i], picture, group);
@@ -193,7 +193,7 @@ TEST(SharedLoss, IsThatOfOneProcess) {
 // Patches are compared by the same sample and the same counts: not even rounding differs.
 TEST(SharedLoss, OfPatchesIsTheSameNumber) {
   const at::Tensor picture = numbers({2, 131, 50}, 2).cumsum(1) * 0.3;
-  for (const Case& c : cases()) {
+  for (const GroupCase& c : group_cases()) {
     if (c.params.gram_weight > 0) continue;
     const double alone = found(c, picture, one_process()).value;
     EXPECT_GT(alone, 0);

@@ -20,7 +20,7 @@ struct TypesOf<std::variant<Terms...>> {
   using Types = testing::Types<Terms...>;
 };
 
-constexpr Edges circular{Padding::circular, Padding::circular};
+constexpr Edges both_circular{Padding::circular, Padding::circular};
 
 // The weight of a term is the first of its fields.
 template <class Params>
@@ -41,7 +41,8 @@ struct Alone {
       : description(pyramid_network()),
         network(random_network(description, at::kFloat)),
         matched{network, description, {{1, 1}, {3, 0.5}}},
-        loss(params, &matched, exemplar, circular, {target, Tile::both}, circular, Random(1)) {}
+        loss(params, &matched, exemplar, both_circular, {target, Tile::both}, both_circular,
+             Random(1)) {}
 
   double value(const at::Tensor& picture, std::uint64_t step = 0) {
     at::Tensor unused = at::empty_like(picture);

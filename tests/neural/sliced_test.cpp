@@ -12,21 +12,21 @@
 namespace gramloom::neural {
 namespace {
 
-constexpr int all = 1 << 30;  // positions; a part of them: sampled_test.cpp
+constexpr int every_position = 1 << 30;  // positions; a part of them: sampled_test.cpp
 
-struct SlicedTerm : MadeTerm {
-  SlicedTerm(const at::Tensor& exemplar, Size target, Tile wraps, std::vector<int> patch_sizes,
-             int directions, Random random)
-      : MadeTerm(SlicedParams{1, std::move(patch_sizes), all}, exemplar, target, wraps, directions,
-                 random) {}
+struct WholeTerm : MadeTerm {
+  WholeTerm(const at::Tensor& exemplar, Size target, Tile wraps, std::vector<int> patch_sizes,
+            int directions, Random random)
+      : MadeTerm(SlicedParams{1, std::move(patch_sizes), every_position}, exemplar, target, wraps,
+                 directions, random) {}
 };
 
-SlicedTerm term_for(const at::Tensor& exemplar, Size target, Tile wraps,
-                    std::vector<int> patch_sizes = {5}, int directions = 8) {
+WholeTerm term_for(const at::Tensor& exemplar, Size target, Tile wraps,
+                   std::vector<int> patch_sizes = {5}, int directions = 8) {
   return {exemplar, target, wraps, std::move(patch_sizes), directions, Random(7)};
 }
 
-double value(const SlicedTerm& term, const at::Tensor& picture, std::uint64_t step = 0) {
+double value(const WholeTerm& term, const at::Tensor& picture, std::uint64_t step = 0) {
   return term.value(picture, step);
 }
 
@@ -41,7 +41,7 @@ std::string complaint(const at::Tensor& exemplar, Size target, Tile wraps, int p
 
 TEST(Sliced, ZeroForTheExemplarItself) {
   const at::Tensor exemplar = numbers({3, 20, 26}, 1);
-  const SlicedTerm term = term_for(exemplar, size_of(exemplar), Tile::none, {5, 3});
+  const WholeTerm term = term_for(exemplar, size_of(exemplar), Tile::none, {5, 3});
   for (std::uint64_t step = 0; step < 4; ++step) {
     at::Tensor gradient = at::zeros_like(exemplar);
     EXPECT_EQ(term.add(exemplar, 1, step, gradient), 0);
@@ -55,7 +55,7 @@ TEST(Sliced, ZeroForShiftsOfAPeriodicExemplar) {
   const at::Tensor period = numbers({2, 6, 8}, 1);
   const at::Tensor torus = period.repeat({1, 2, 2});
   const at::Tensor exemplar = period.repeat({1, 3, 3}).narrow(1, 0, 16).narrow(2, 0, 20);
-  const SlicedTerm term = term_for(exemplar.contiguous(), size_of(torus), Tile::both);
+  const WholeTerm term = term_for(exemplar.contiguous(), size_of(torus), Tile::both);
   for (const std::int64_t shift : {0, 1, 5})
     for (std::uint64_t step = 0; step < 3; ++step)
       EXPECT_LT(value(term, at::roll(torus, {shift, 2 * shift}, {1, 2}).contiguous(), step), 1e-6);
@@ -64,7 +64,7 @@ TEST(Sliced, ZeroForShiftsOfAPeriodicExemplar) {
 
 TEST(Sliced, AboutOneForNoStructureAtAll) {
   const at::Tensor exemplar = numbers({3, 40, 40}, 1);
-  const SlicedTerm term = term_for(exemplar, {40, 40}, Tile::both, {5}, 64);
+  const WholeTerm term = term_for(exemplar, {40, 40}, Tile::both, {5}, 64);
   const at::Tensor flat = exemplar.mean({1, 2}, true).expand_as(exemplar).contiguous();
   EXPECT_NEAR(value(term, flat), 1, 0.02);  // step 0 has the directions that it is divided for
   EXPECT_NEAR(value(term, flat, 1), 1, 0.2);
@@ -72,11 +72,11 @@ TEST(Sliced, AboutOneForNoStructureAtAll) {
 
 TEST(Sliced, StepsHaveDirectionsOfTheirOwn) {
   const at::Tensor exemplar = numbers({2, 20, 20}, 1), picture = numbers({2, 20, 20}, 2);
-  const SlicedTerm term = term_for(exemplar, {20, 20}, Tile::both);
+  const WholeTerm term = term_for(exemplar, {20, 20}, Tile::both);
   EXPECT_EQ(value(term, picture, 3), value(term, picture, 3));
   EXPECT_EQ(value(term, picture, 3), value(term_for(exemplar, {20, 20}, Tile::both), picture, 3));
   EXPECT_NE(value(term, picture, 3), value(term, picture, 4));
-  const SlicedTerm other(exemplar, {20, 20}, Tile::both, {5}, 8, Random(8));
+  const WholeTerm other(exemplar, {20, 20}, Tile::both, {5}, 8, Random(8));
   EXPECT_NE(value(term, picture, 3), value(other, picture, 3));
 }
 
@@ -97,7 +97,7 @@ TEST(Sliced, IsTheDistanceOfPatchesAlongAllDirections) {
   ASSERT_NE(directions % (sliced_values_at_once / positions), 0);
   for (const std::int64_t side : {36, 1300}) {
     const at::Tensor picture = numbers({1, side, side}, 2);
-    const SlicedTerm term = term_for(exemplar, size_of(picture), Tile::both, {3}, directions);
+    const WholeTerm term = term_for(exemplar, size_of(picture), Tile::both, {3}, directions);
     at::Tensor gradient = at::zeros_like(picture), expected = at::zeros_like(picture);
     const double found = term.add(picture, 2, 5, gradient);
 
@@ -115,9 +115,9 @@ TEST(Sliced, IsTheDistanceOfPatchesAlongAllDirections) {
 
 TEST(Sliced, PatchSizesTakeTurns) {
   const at::Tensor exemplar = numbers({2, 20, 20}, 1), picture = numbers({2, 20, 20}, 2);
-  const SlicedTerm both = term_for(exemplar, {20, 20}, Tile::none, {5, 3});
-  const SlicedTerm large = term_for(exemplar, {20, 20}, Tile::none, {5});
-  const SlicedTerm small = term_for(exemplar, {20, 20}, Tile::none, {3});
+  const WholeTerm both = term_for(exemplar, {20, 20}, Tile::none, {5, 3});
+  const WholeTerm large = term_for(exemplar, {20, 20}, Tile::none, {5});
+  const WholeTerm small = term_for(exemplar, {20, 20}, Tile::none, {3});
   for (const std::uint64_t step : {0, 2, 4})
     EXPECT_EQ(value(both, picture, step), value(large, picture, step));
   // Each is divided by the exemplar's own distance in the first patch size.
@@ -132,7 +132,7 @@ TEST(Sliced, GradientMatchesFiniteDifferences) {
       const at::Tensor exemplar = numbers({2, 12, 14}, 1);
       // Stronger than the exemplar: few values are near the ones that they go to, where W₁ bends.
       const at::Tensor picture = 3 * numbers({2, size.height, size.width}, 2);
-      const SlicedTerm term = term_for(exemplar, size, wraps, {3, 5});
+      const WholeTerm term = term_for(exemplar, size, wraps, {3, 5});
       for (std::uint64_t step = 0; step < 2; ++step) {
         at::Tensor gradient = at::zeros_like(picture);
         term.add(picture, 1, step, gradient);
@@ -151,7 +151,7 @@ TEST(Sliced, GradientMatchesFiniteDifferences) {
 
 TEST(Sliced, AddsItsWeightTimesTheGradient) {
   const at::Tensor exemplar = numbers({2, 20, 20}, 1), picture = numbers({2, 20, 20}, 2);
-  const SlicedTerm term = term_for(exemplar, {20, 20}, Tile::both);
+  const WholeTerm term = term_for(exemplar, {20, 20}, Tile::both);
   at::Tensor once = at::zeros_like(picture), more = picture.clone();
   const double value = term.add(picture, 1, 0, once);
   EXPECT_EQ(term.add(picture, 3, 0, more), value);
@@ -160,7 +160,7 @@ TEST(Sliced, AddsItsWeightTimesTheGradient) {
 
 TEST(Sliced, OneThreadGivesTheBytesOfTwo) {
   const at::Tensor exemplar = numbers({2, 70, 60}, 1), picture = numbers({2, 90, 80}, 2);
-  const SlicedTerm term = term_for(exemplar, {80, 90}, Tile::x);
+  const WholeTerm term = term_for(exemplar, {80, 90}, Tile::x);
   at::Tensor gradient = at::zeros_like(picture), alone = at::zeros_like(picture);
   const double value = term.add(picture, 1, 0, gradient);
   set_thread_count(1);
@@ -173,7 +173,7 @@ TEST(Sliced, OfAFlatExemplarOnlyTheColourIsMatched) {
   // Of a colour whose mean over many patches may round to another one.
   const at::Tensor colour = at::tensor({0.1f, -0.7f, 0.3f}).view({3, 1, 1});
   const at::Tensor exemplar = colour.expand({3, 21, 19}).contiguous();
-  const SlicedTerm term = term_for(exemplar, {16, 16}, Tile::both);
+  const WholeTerm term = term_for(exemplar, {16, 16}, Tile::both);
   const at::Tensor goal = colour.expand({3, 16, 16}).contiguous();
   EXPECT_NEAR(value(term, goal), 0, 1e-12);
   EXPECT_NEAR(value(term, goal + 0.5f), 0.25, 1e-6);

@@ -19,7 +19,7 @@ at::Tensor row(const std::vector<float>& values) {
   return at::tensor(values).view({1, static_cast<std::int64_t>(values.size())});
 }
 
-std::vector<float> values_of(const at::Tensor& tensor) {
+std::vector<float> floats_of(const at::Tensor& tensor) {
   const at::Tensor flat = tensor.contiguous();
   return {flat.data_ptr<float>(), flat.data_ptr<float>() + flat.numel()};
 }
@@ -47,7 +47,7 @@ TEST(SortRows, SortsLikeTheLibraryAndKeepsEveryBit) {
     std::sort(expected.begin(), expected.end(), [](float a, float b) {
       return a < b || (a == b && std::signbit(a) && !std::signbit(b));
     });
-    const std::vector<float> found = values_of(sorted);
+    const std::vector<float> found = floats_of(sorted);
     for (std::size_t i = 0; i < count; ++i)
       ASSERT_EQ(std::bit_cast<std::uint32_t>(found[i]), std::bit_cast<std::uint32_t>(expected[i]))
           << i << " of " << count << ": " << found[i] << ", not " << expected[i];
@@ -78,7 +78,7 @@ double interpolated(const std::vector<float>& sorted, double i, double count) {
 double brute_force(const at::Tensor& rows, const at::Tensor& target) {
   double sum = 0;
   for (std::int64_t r = 0; r < rows.size(0); ++r) {
-    std::vector<float> own = values_of(rows[r]), goal = values_of(target[r]);
+    std::vector<float> own = floats_of(rows[r]), goal = floats_of(target[r]);
     std::sort(own.begin(), own.end());
     std::sort(goal.begin(), goal.end());
     for (std::size_t i = 0; i < own.size(); ++i)

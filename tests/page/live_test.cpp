@@ -10,8 +10,6 @@
 namespace gramloom {
 namespace {
 
-using Json = nlohmann::json;
-
 const std::string config =
     "seeds = [1, 2]\nsize = [45, 38]\nscores = false\n"
     "[[method]]\nname = 'one'\nkind = 'generator'\nmodel = 'one.safetensors'\n"
@@ -55,7 +53,7 @@ class LivePage : public RunInBrowser {
   // By how many levels of 8 bits the canvas differs from the file, at most.
   static int difference(const fs::path& file) {
     const Image image = read_image(file).image;
-    const Json pixels =
+    const nlohmann::json pixels =
         js("(() => { const { gl, canvas } = live;"
            " const bytes = new Uint8Array(4 * canvas.width * canvas.height);"
            " gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);"
@@ -100,12 +98,12 @@ TEST_F(LivePage, MakesTheFilesPicture) {
 TEST_F(LivePage, ShadersThatAreTooLongAreLeftOut) {
   browser_->open(folder_ / "none/index.html", desk);
   EXPECT_EQ(js("data.jobs.filter((job) => job.live).map((job) => job.method)"),
-            (Json{"one", "one", "mix", "mix"}));
+            (nlohmann::json{"one", "one", "mix", "mix"}));
 }
 
 TEST_F(LivePage, OnlyGeneratorsAreLiveAndTheViewGoesOnBesideOthers) {
   enlarge("none", "procedural/stone/seed1");
-  EXPECT_EQ(js("byId('live')"), Json());
+  EXPECT_EQ(js("byId('live')"), nlohmann::json());
   EXPECT_EQ(js("document.querySelectorAll('#stage img').length > 0"), true);
   EXPECT_EQ(js("[...document.querySelectorAll('.segments button')].some((b) => b.textContent === "
                "'live')"),
@@ -115,7 +113,7 @@ TEST_F(LivePage, OnlyGeneratorsAreLiveAndTheViewGoesOnBesideOthers) {
   browser_->press("ArrowLeft");
   made(2);
   browser_->press("l");
-  EXPECT_EQ(js("byId('live')"), Json()) << "the picture again";
+  EXPECT_EQ(js("byId('live')"), nlohmann::json()) << "the picture again";
   EXPECT_THAT(problems(), IsEmpty());
 }
 

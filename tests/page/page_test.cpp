@@ -8,8 +8,6 @@
 namespace gramloom {
 namespace {
 
-using Json = nlohmann::json;
-
 // Names that trip over quoting, addresses, HTML and JSON.
 const std::string odd_name = "it's 100% #1 & ünï 砂";
 const std::string patch_job = odd_name + "/patch 'n' match/seed1";
@@ -78,7 +76,7 @@ TEST_F(Page, LoadsWithoutAWordOnTheConsoleAndWithEveryPicture) {
 TEST_F(Page, OddNamesStayText) {
   open();
   EXPECT_EQ(js("[...document.querySelectorAll('#rows h3')].map((h) => h.textContent)"),
-            (Json{"procedural", odd_name, "plain", "broken"}));
+            (nlohmann::json{"procedural", odd_name, "plain", "broken"}));
   EXPECT_EQ(js("document.querySelectorAll('img[onerror], script').length"), 2)
       << "two scripts of ours";
   EXPECT_EQ(js("document.title"), "c · gramloom");
@@ -121,19 +119,23 @@ TEST_F(Page, AColumnSortsBothWaysAndItsBestIsMarked) {
       const bool higher = score == "stsim2";
       const std::string heading = "#table [data-column=" + score + "]";
       click(heading);
-      auto values = js(column(score)).get<std::vector<Json>>();
-      const auto missing = std::find(values.begin(), values.end(), Json());
+      auto values = js(column(score)).get<std::vector<nlohmann::json>>();
+      const auto missing = std::find(values.begin(), values.end(), nlohmann::json());
       EXPECT_GE(missing - values.begin(), 3);
-      EXPECT_TRUE(std::all_of(missing, values.end(), [](const Json& v) { return v.is_null(); }));
-      const auto better = [&](const Json& a, const Json& b) { return higher ? a > b : a < b; };
+      EXPECT_TRUE(
+          std::all_of(missing, values.end(), [](const nlohmann::json& v) { return v.is_null(); }));
+      const auto better = [&](const nlohmann::json& a, const nlohmann::json& b) {
+        return higher ? a > b : a < b;
+      };
       EXPECT_TRUE(std::is_sorted(values.begin(), missing, better)) << js(column(score));
       EXPECT_EQ(js("document.querySelector('" + heading + "').closest('th').ariaSort"),
                 higher ? "descending" : "ascending");
       click(heading);
-      values = js(column(score)).get<std::vector<Json>>();
-      const auto last = std::find(values.begin(), values.end(), Json());
-      EXPECT_TRUE(std::is_sorted(values.begin(), last,
-                                 [&](const Json& a, const Json& b) { return better(b, a); }));
+      values = js(column(score)).get<std::vector<nlohmann::json>>();
+      const auto last = std::find(values.begin(), values.end(), nlohmann::json());
+      EXPECT_TRUE(std::is_sorted(
+          values.begin(), last,
+          [&](const nlohmann::json& a, const nlohmann::json& b) { return better(b, a); }));
       EXPECT_EQ(js("[...document.querySelectorAll('#table td[data-score=" + score +
                    "].best')].at(-1).firstChild.data * 1"),
                 *std::prev(last))
@@ -149,7 +151,7 @@ TEST_F(Page, ThePictureFlipsInItsPlace) {
   const std::string shown = "[...document.querySelectorAll('#stage .layer:not([hidden]) img')]";
   const std::string place = shown + ".map((i) => JSON.stringify(i.getBoundingClientRect()))[0]";
   EXPECT_EQ(text("#stage .tag"), "A · patch 'n' match, seed 1");
-  const Json first = js(place);
+  const nlohmann::json first = js(place);
   browser_->press(" ");
   EXPECT_EQ(text("#stage .tag"), "B · exemplar");
   EXPECT_THAT(js("decodeURIComponent(" + shown + "[0].src)").get<std::string>(),
@@ -169,7 +171,7 @@ TEST_F(Page, TwoByTwoTilesWithoutAGap) {
   open();
   enlarge(patch_job);
   browser_->press("t");
-  const Json corners =
+  const nlohmann::json corners =
       js("[...document.querySelectorAll('#stage .layer:not([hidden]) img')].map((i) => {"
          " const r = i.getBoundingClientRect(); return [r.left, r.top, r.right, r.bottom]; })");
   ASSERT_EQ(corners.size(), 4u);
@@ -219,7 +221,7 @@ TEST_F(Page, AnAddressOpensItsPicture) {
   browser_->press("Escape");
   wait();
   EXPECT_EQ(js("location.hash"), "");
-  js("location.hash = " + Json(address.substr(address.find('#'))).dump());
+  js("location.hash = " + nlohmann::json(address.substr(address.find('#'))).dump());
   wait();
   EXPECT_EQ(text("#viewer-title span"), "quilting, seed 1");
 }

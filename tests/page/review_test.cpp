@@ -13,7 +13,6 @@
 namespace gramloom {
 namespace {
 
-using Json = nlohmann::json;
 using testing::Not;
 
 void invert(const fs::path& picture) {
@@ -66,7 +65,8 @@ class Review : public RunInBrowser {
         for (int x = 0; x < 16; ++x)
           frame.at(x, y)[0] = static_cast<float>(x * i) - static_cast<float>(y);
       write_image(frame_files(folder, 5, "exr").at(static_cast<std::size_t>(i)), frame,
-                  {PixelType::half, "", {}}, {{inferred_mark, Json{{"bend", 10 * i}}.dump()}});
+                  {PixelType::half, "", {}},
+                  {{inferred_mark, nlohmann::json{{"bend", 10 * i}}.dump()}});
     }
   }
   static void open(Size window = desk, bool dark = false) {
@@ -223,11 +223,11 @@ TEST_F(Review, ASequenceIsPlayedByASlider) {
 void write_page_of_many(const fs::path& run, int count) {
   std::string html = read_text(run / "index.html");
   const std::size_t start = html.find("id=\"data\">") + 10, end = html.find("</script>", start);
-  Json data = Json::parse(html.substr(start, end - start));
-  Json jobs = Json::array();
+  nlohmann::json data = nlohmann::json::parse(html.substr(start, end - start));
+  nlohmann::json jobs = nlohmann::json::array();
   fs::create_directories(run / "many");
   for (int i = 0; i < count; ++i) {
-    Json job = data["jobs"][0];
+    nlohmann::json job = data["jobs"][0];
     const std::string file = fmt::format("many/{}.png", i);
     fs::copy_file(run / job["pictures"][0]["file"].get<std::string>(), run / file);
     job["name"] = fmt::format("{}/q/seed{}", job["exemplar"].get<std::string>(), i);

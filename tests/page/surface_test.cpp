@@ -9,8 +9,6 @@
 namespace gramloom {
 namespace {
 
-using Json = nlohmann::json;
-
 // Humps in a grid, darker in between, with their height and maps told by it.
 void write_humps(const fs::path& folder) {
   Image colour(64, 64, 3), height(64, 64, 1), occlusion(64, 64, 1), roughness(64, 64, 1);
@@ -72,7 +70,7 @@ class SurfacePage : public RunInBrowser {
        "})()");
   }
   // The mean of the picture's red, green and blue, and by how much it differs from the last one.
-  static Json look() {
+  static nlohmann::json look() {
     drawn();
     return js(
         "(() => { const { gl, canvas } = painter;"
@@ -127,7 +125,7 @@ TEST_F(SurfacePage, ColoursAloneAreLitToo) {
   browser_->press("o");
   EXPECT_GT(look().at("mean"), 8);
   EXPECT_EQ(js("document.querySelectorAll('#surface-controls [data-map]').length"), 0);
-  EXPECT_EQ(js("document.getElementById('surface-depth')"), Json());
+  EXPECT_EQ(js("document.getElementById('surface-depth')"), nlohmann::json());
   js("moveLight(0.8, 0); paintSoon()");
   EXPECT_GT(change(), 0.5);
   browser_->press("o");
@@ -146,7 +144,7 @@ TEST_F(SurfacePage, DraggingTurnsAndWithShiftMovesTheLight) {
        "   c.dispatchEvent(new PointerEvent(type, { clientX: x, clientY: 90, shiftKey: " +
        shift + ", bubbles: true })); })()");
   };
-  const Json before = js("({ ...surface })");
+  const nlohmann::json before = js("({ ...surface })");
   drag("false");
   EXPECT_GT(change(), 0.3);
   EXPECT_NE(js("surface.yaw"), before.at("yaw"));

@@ -20,7 +20,8 @@ TEST(Trace, NamesComeBackAsTheyWere) {
     const Trace trace{{name, "b"}, {{0, 1, 0.25, 0.5, {1, 2}}}};
     EXPECT_EQ(parse_trace("# mark\n" + to_csv(trace)), trace) << name;
   }
-  EXPECT_EQ(to_csv({{"a,b", "c\"d"}, {}}), "step,evaluations,seconds,loss,\"a,b\",\"c\"\"d\"\n");
+  EXPECT_EQ(to_csv(Trace{{"a,b", "c\"d"}, {}}),
+            "step,evaluations,seconds,loss,\"a,b\",\"c\"\"d\"\n");
 }
 
 TEST(Trace, ACellThatIsNoNumberIsNamed) {

@@ -13,7 +13,7 @@
 namespace gramloom {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+constexpr double full_pi = std::numbers::pi;
 
 // The largest difference but for a constant, over the range of heights.
 double relative_error(const Image& a, const Image& b) {
@@ -32,7 +32,7 @@ Image field(Size size, bool wraps_x, bool wraps_y) {
   Image height(size, 1);
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
-      const double u = 2 * pi * x / size.width, v = 2 * pi * y / size.height;
+      const double u = 2 * full_pi * x / size.width, v = 2 * full_pi * y / size.height;
       double h = std::sin(u) * std::cos(2 * v) + 0.3 * std::sin(4 * u + 1) + 0.2 * std::cos(5 * v);
       if (!wraps_x) h += 0.4 * u + 0.1 * u * u;
       if (!wraps_y) h -= 0.3 * v + 0.05 * u * v * (wraps_x ? 0 : 1);

@@ -235,7 +235,8 @@ TEST_F(MeshFile, BadFilesAreToldInALine) {
             "m.obj:2: 'nan' is not a finite number");
   EXPECT_EQ(refusal("v 0 0 0\nv 1 1e99 0\nv 1 1 0\nf 1 2 3\n"),
             "m.obj:2: '1e99' is not a finite number");
-  EXPECT_EQ(refusal(square + "f 1 2 2\n"), "m.obj: triangle 1 has no area: its corners must not lie on one line");
+  EXPECT_EQ(refusal(square + "f 1 2 2\n"),
+            "m.obj: triangle 1 has no area: its corners must not lie on one line");
   EXPECT_EQ(refusal(square + "f 1 2 9\n"), "m.obj: a face names vertex 9, the file has 4");
   EXPECT_THAT(refusal(std::string("\x89PNG\x01\x02")), testing::StartsWith("m.obj: "));
   EXPECT_THROW(read_mesh(path("none.obj")), Error);
