@@ -8,6 +8,7 @@
 #include "core/spinning.h"
 #include "jobs/config.h"
 #include "jobs/interruption.h"
+#include "jobs/job_preview.h"
 #include "jobs/output_guard.h"
 #include "jobs/progress_bar.h"
 #include "jobs/runner.h"
@@ -42,6 +43,7 @@ ExitCode train(const TrainArguments& arguments) {
   const Config config = read_config(arguments.config.config, arguments.config.set);
   if (config.models.empty())
     throw ConfigError("{}: there is no [[model]] to train", config.file.string());
+  check_previews(config);
   if (std::filesystem::is_regular_file(config.file)) bound_spinning(arguments.words);
   RunOptions options = begin_run(config, arguments.output, arguments.resume, arguments.words);
   options.only = arguments.config.only;

@@ -15,6 +15,11 @@ ImageFile read_image(const std::filesystem::path& path) {
   return open_module<PicturesModule>().read(path);
 }
 
+Size read_image_size(const std::filesystem::path& path) {
+  if (const ImageFile* picture = picture_in_memory(path)) return picture->image.size();
+  return open_module<PicturesModule>().read_size(path);
+}
+
 std::vector<std::string> write_image(const std::filesystem::path& path, const Image& image,
                                      const Encoding& encoding, const Metadata& metadata) {
   if (image.empty()) throw Error("{}: an empty image cannot be written", path.string());

@@ -59,6 +59,10 @@ struct ImageFile {
 /// or more (missing data), integers of 64 bits, and a WebP that is transparent anywhere.
 ImageFile read_image(const std::filesystem::path& path);
 
+/// Its width and height by the file's header, before the picture is turned. Throws as read_image()
+/// does, but for what only the pixels show.
+Size read_image_size(const std::filesystem::path& path);
+
 /// Writes `image` as PNG, JPEG, TIFF, EXR, TGA, BMP, PNM or HDR, by the path's extension, complete
 /// or not at all (see write_text). The same image gives the same bytes: there are no dates inside.
 ///

@@ -252,9 +252,9 @@ std::string with_name(std::string message, const std::string& from, const std::s
   return message;
 }
 
-}  // namespace
-
-ImageFile pictures::read(const fs::path& path) {
+// What `use` makes of the opened file, whose header is one that can be.
+template <class Use>
+auto with_opened(const fs::path& path, const Use& use) {
   std::string opened_as = path.string();
   try {
     const RegularFile file(path);
@@ -264,13 +264,23 @@ ImageFile pictures::read(const fs::path& path) {
     check_png_chunks(file.name());
     const auto input = open_image(path, file);
     check_header(input->spec(), file.size());
-    return read_open(*input);
+    return use(*input);
   } catch (const std::bad_alloc&) {  // OpenImageIO's readers let it through
     throw Error("{}: out of memory", path.string());
   } catch (const std::exception& error) {
     throw Error("{}: {}", path.string(),
                 with_name(first_line(error.what()), opened_as, path.filename().string()));
   }
+}
+
+}  // namespace
+
+ImageFile pictures::read(const fs::path& path) { return with_opened(path, read_open); }
+
+Size pictures::read_size(const fs::path& path) {
+  return with_opened(path, [](const OIIO::ImageInput& input) {
+    return Size{input.spec().width, input.spec().height};
+  });
 }
 
 }  // namespace gramloom

@@ -16,6 +16,7 @@ namespace gramloom {
 struct PicturesModule {
   static constexpr std::string_view name = "pictures";
   ImageFile (*read)(const std::filesystem::path& path);
+  Size (*read_size)(const std::filesystem::path& path);
   std::vector<std::string> (*write)(const std::filesystem::path& path, const Image& image,
                                     const Encoding& encoding, const Metadata& metadata);
   PixelType (*stored_type)(const std::string& extension, PixelType type);
@@ -30,6 +31,7 @@ struct PicturesModule {
 
 namespace pictures {
 ImageFile read(const std::filesystem::path& path);
+Size read_size(const std::filesystem::path& path);
 std::vector<std::string> write(const std::filesystem::path& path, const Image& image,
                                const Encoding& encoding, const Metadata& metadata);
 PixelType stored_type(const std::string& extension, PixelType type);

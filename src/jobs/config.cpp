@@ -52,11 +52,37 @@ Fields read_section(toml::table& config, std::string_view name) {
   return fields;
 }
 
+// The exemplar's map that has this name on a disk that does not tell capitals apart; "" for none.
+std::string map_called(const ExemplarEntry& exemplar, const std::string& name) {
+  for (const auto& [map, file] : exemplar.maps)
+    if (in_small_letters(map) == in_small_letters(name)) return map;
+  return "";
+}
+
+// Heights are guessed where there are none.
+void check_guess(const Config& config, const toml::source_region& region) {
+  bool any = false;
+  for (const ExemplarEntry& exemplar : config.exemplars) {
+    if (!height_among(exemplar.maps, config.surface).empty()) continue;
+    any = true;
+    for (const std::string name : {"height", "roughness"})
+      if (const std::string map = map_called(exemplar, name); !map.empty() && map != name)
+        fail(region, "the map '{}' of '{}' would have the file of the guessed '{}': rename it", map,
+             exemplar.name, name);
+  }
+  const bool needed = std::ranges::any_of(
+      config.methods, [](const MethodEntry& entry) { return needs_exemplar(entry.method); });
+  if (!any || (!needed && config.models.empty()))
+    fail(region, "'guess' has no effect: {}",
+         needed ? "every exemplar has a height" : "no method here makes textures of an exemplar");
+}
+
 // Maps are made of a height, and nobody has two maps of one name.
 void check_surface(const Config& config, toml::table& table) {
   if (!makes_any(config.surface)) return;
   const std::vector<std::string> asked = maps_asked(config.surface);
   const toml::source_region& region = key_region(table, "surface");
+  if (config.surface.guess) check_guess(config, region);
   bool any_height = config.surface.guess;
   for (const MethodEntry& method : config.methods) any_height |= !needs_exemplar(method.method);
   for (const ExemplarEntry& exemplar : config.exemplars) {
@@ -77,9 +103,9 @@ void check_surface(const Config& config, toml::table& table) {
 void check_preview_names(const Config& config) {
   for (const PreviewEntry& preview : config.previews)
     for (const ExemplarEntry& exemplar : config.exemplars)
-      if (exemplar.maps.contains(label_of(preview)))
+      if (const std::string map = map_called(exemplar, label_of(preview)); !map.empty())
         throw ConfigError("{}: the map '{}' of '{}' would have the file of the {}: rename it",
-                          preview.place, label_of(preview), exemplar.name, title_of(preview));
+                          preview.place, map, exemplar.name, title_of(preview));
 }
 
 void check_seeds(const Config& config, const toml::table& table) {

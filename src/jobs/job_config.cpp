@@ -105,7 +105,7 @@ std::string job_config(const Config& config, const Job& job) {
 
 Json settings_by_content(Json settings) {
   // Files of a list are numbered: "environment_0".
-  const auto forget = [](Json& table, const Json& files) {
+  const auto forget = [](Json& table, Json files) {  // a copy: they may be of the table itself
     for (const auto& [key, hash] : files.items()) {
       table.erase(key);
       table.erase(key.substr(0, key.rfind('_')));

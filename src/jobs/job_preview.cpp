@@ -47,7 +47,7 @@ PreviewMaterial flat_material(const Config& config, const ShownTexture& shown) {
                              : name == config.surface.height ? "height"
                                                              : material_map(name);
     if (what.empty() || material.maps.contains(what)) continue;
-    material.maps[what] = what == "normal" ? map : one_channel(map);
+    material.maps[what] = what == "normal" ? map : one_channel(map, 3.0f / 255, what);
     if (green != normals.end()) material.green = green->second;
   }
   return material;
@@ -75,11 +75,10 @@ void check_preview_of_config(const PreviewEntry& preview) {
   if (!preview.shape.is_name()) make_mapping(preview, read_mesh(preview.shape));
   if (const Image around = read_environment(preview); !around.empty())
     latlong_picture(around, preview.environment_kind);
-  if (!preview.second.empty()) {
-    PreviewParams small = preview;
-    small.size = {1, 1};
-    read_texture(preview.second, small);
-  }
+  if (preview.second.empty()) return;
+  PreviewParams small = preview;
+  small.size = {1, 1};
+  check_material(read_texture(preview.second, small));
 }
 
 }  // namespace
@@ -101,7 +100,7 @@ void check_previews(const Config& config) {
     const bool used = std::ranges::any_of(plan.jobs, [&](const PlannedJob& planned) {
       return job_matches(preview.only, planned.name);
     });
-    if (!used && !plan.jobs.empty())
+    if (!used && config.models.empty())  // what is trained makes more of them
       throw ConfigError("{}: {}: only = '{}' matches no job; there are {}{}", preview.place,
                         title_of(preview), preview.only, plan.jobs.front().name,
                         plan.jobs.size() > 1 ? ", …" : "");
@@ -113,6 +112,22 @@ void check_previews(const Config& config) {
   }
 }
 
+Cost estimate_preview(const PreviewEntry& preview, Size result) {
+  const PreviewParams& params = preview;
+  Cost cost = estimate_preview(params, result);
+  if (preview.second.empty() || preview.mapping == Mapping::solid) return cost;
+  Size size{1024, 1024};  // of a procedural texture
+  if (!preview.second.is_name()) try {
+      size = read_image_size(preview.second);
+    } catch (const Error&) {
+      return cost;  // check_previews() says it
+    }
+  const double pixels = 1.0 * size.width * size.height;
+  cost.bytes += 62 * pixels;
+  cost.work.serial += 1.8e-7 * pixels;
+  return cost;
+}
+
 Named<std::string> preview_hashes(const PreviewEntry& preview, FileHashes& hashes) {
   Named<std::string> result;
   for (const auto& [key, file] : preview_files(preview)) result.push_back({key, hashes.of(file)});
@@ -122,25 +137,27 @@ Named<std::string> preview_hashes(const PreviewEntry& preview, FileHashes& hashe
 std::vector<std::string> write_previews(const fs::path& folder, const std::string& name,
                                         const Config& config,
                                         const std::vector<const PreviewEntry*>& previews,
-                                        const ShownTexture& shown, FileHashes& hashes,
-                                        PreviewEnvironments& environments, const Control& control,
-                                        std::vector<std::string>& notes) {
+                                        const Metadata& metadata, const ShownTexture& shown,
+                                        FileHashes& hashes, PreviewEnvironments& environments,
+                                        const Control& control, std::vector<std::string>& notes) {
   std::vector<std::string> files;
-  for (const PreviewEntry* preview : previews) try {
+  for (const PreviewEntry* preview : previews) {
+    RenderedPreview rendered;
+    try {
       const bool solid = preview->mapping == Mapping::solid;
-      const RenderedPreview rendered =
-          render(*preview, solid ? solid_material(shown) : flat_material(config, shown),
-                 environment_of(*preview, hashes, environments), control);
-      const std::string file = fmt::format("{}_{}.png", name, label_of(*preview));
-      write_image(folder / file, shown_preview(*preview, rendered.picture), {});
-      files.push_back(file);
-      for (const std::string& note : rendered.notes)
-        notes.push_back(fmt::format("{}: {}", title_of(*preview), note));
+      rendered = render(*preview, solid ? solid_material(shown) : flat_material(config, shown),
+                        environment_of(*preview, hashes, environments), control);
     } catch (const Interrupted&) {
       throw;
     } catch (const Error& error) {
       notes.push_back(fmt::format("no {}: {}", title_of(*preview), error.what()));
+      continue;
     }
+    files.push_back(fmt::format("{}_{}.png", name, label_of(*preview)));
+    write_image(folder / files.back(), shown_preview(*preview, rendered.picture), {}, metadata);
+    for (const std::string& note : rendered.notes)
+      notes.push_back(fmt::format("{}: {}", title_of(*preview), note));
+  }
   return files;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/cost.h"
 #include "core/progress.h"
 #include "io/json_fields.h"
 #include "jobs/config.h"
@@ -17,8 +18,11 @@ namespace gramloom {
 Named<std::filesystem::path> preview_files(const PreviewEntry& preview);
 
 /// Reads the files of all previews as those will. Throws ConfigError for what no preview can use,
-/// and for one that is made of no job: `check` and `run` say it before the first job.
+/// and for one that is made of no job: `check`, `run` and `train` say it before the first job.
 void check_previews(const Config& config);
+
+/// What a preview of a result of this size takes, with reading its second material.
+Cost estimate_preview(const PreviewEntry& preview, Size result);
 
 /// The hashes of its files.
 Named<std::string> preview_hashes(const PreviewEntry& preview, FileHashes& hashes);
@@ -35,13 +39,14 @@ struct ShownTexture {
 };
 
 /// Renders a job's texture as each of these previews of the config says, and writes them as
-/// `name`_preview.png in `folder`, or `name`_preview_NAME.png. Returns the files' names; where one
-/// is missing, the notes say why: a texture that a preview does not suit is a texture all the same.
+/// `name`_preview.png in `folder`, or `name`_preview_NAME.png, with this metadata. Returns the
+/// files' names; where one is missing, the notes say why: a texture that a preview does not suit is
+/// a texture all the same. Throws Error for a file that cannot be written.
 std::vector<std::string> write_previews(const std::filesystem::path& folder,
                                         const std::string& name, const Config& config,
                                         const std::vector<const PreviewEntry*>& previews,
-                                        const ShownTexture& shown, FileHashes& hashes,
-                                        PreviewEnvironments& environments, const Control& control,
-                                        std::vector<std::string>& notes);
+                                        const Metadata& metadata, const ShownTexture& shown,
+                                        FileHashes& hashes, PreviewEnvironments& environments,
+                                        const Control& control, std::vector<std::string>& notes);
 
 }  // namespace gramloom

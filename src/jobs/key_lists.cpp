@@ -206,7 +206,9 @@ std::vector<KeyList> model_lists() {
 }
 
 std::vector<KeyList> map_lists() {
-  return named_lists<SurfaceParams, PhotoParams, PreviewParams>();
+  std::vector<KeyList> lists = named_lists<SurfaceParams, PhotoParams, PreviewParams>();
+  lists.back().keys = keys_of<PreviewEntry>();
+  return lists;
 }
 
 std::vector<KeyList> simulation_lists() { return named_lists<SimulationParams, ClothParams>(); }

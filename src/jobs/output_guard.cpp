@@ -119,7 +119,7 @@ class Guard {
   void check(const fs::path& file, const auto& is_ours) const {
     if (!is_there(file)) return;
     inputs_.check(file);
-    if (!is_ours(file)) refuse_file_of_others(file);
+    if (fs::is_directory(file) || !is_ours(file)) refuse_file_of_others(file);
   }
 
   // Of the texture and its maps.

@@ -6,12 +6,12 @@
 
 #include "core/abilities.h"
 #include "core/threads.h"
+#include "jobs/job_preview.h"
 #include "jobs/loaded_request.h"
 #include "jobs/pattern.h"
 #include "jobs/results.h"
 #include "jobs/settings.h"
 #include "metrics/scores.h"
-#include "surface/preview.h"
 
 namespace gramloom {
 
@@ -109,7 +109,7 @@ Cost cost_of_files(const Config& config, const ExemplarFacts& facts) {
 Cost cost_of_finishing(const Config& config, const ExemplarFacts& facts, const Job& job) {
   Cost cost = cost_of_files(config, facts);
   if (makes_maps(config, job))
-    cost = one_after_the_other(cost, estimate_maps(config.surface, config.size));
+    cost = one_after_the_other(cost, estimate_maps(config.surface, config.size, config.tile));
   for (const PreviewEntry* preview : previews_of(config, job))
     cost = one_after_the_other(cost, estimate_preview(*preview, config.size));
   return cost;

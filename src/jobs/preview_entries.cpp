@@ -14,13 +14,18 @@ namespace {
 
 constexpr std::string_view label = "preview";
 
+// Where the table is; of one that --set makes, where its first key is.
+const toml::source_region& region_of(const toml::table& table) {
+  return table.source().path || table.empty() ? table.source() : table.begin()->first.source();
+}
+
 // What the fields cannot say alone.
 void check_together(const PreviewEntry& preview, const toml::table& table) {
   const std::string title = title_of(preview);
   try {
     check_preview(preview);
   } catch (const Error& error) {
-    fail(table.source(), "{}: {}", title, error.what());
+    fail(region_of(table), "{}: {}", title, error.what());
   }
   if (preview.second.empty()) {
     const PreviewParams usual;
@@ -50,8 +55,8 @@ PreviewEntry read_preview(const toml::table& table) {
   check_keys(table, key_names<PreviewEntry>());
   PreviewEntry preview;
   read_fields(preview, table);
-  preview.place = place(table.source());
-  if (!preview.name.empty())
+  preview.place = place(region_of(table));
+  if (table.contains("name"))
     check_name(preview.name, longest_map_name - label.size() - 1, key_region(table, "name"));
   check_together(preview, table);
   return preview;

@@ -152,6 +152,7 @@ void write_results(Run& run, const JobWork& work, Texture joined, const TraceLog
         files.folder, files.name, arrangement_of(run.source, work.request, run.filled_at)));
   std::ranges::move(write_previews(files.folder, files.name, run.config,
                                    previews_of(run.config, work.planned.job),
+                                   texture_metadata(formats.picture, record.settings, {}),
                                    {work.method, work.request.random, texture, formats}, run.hashes,
                                    run.environments, shown_work(run), record.notes),
                     std::back_inserter(record.files));

@@ -1,5 +1,7 @@
 #include "jobs/settings.h"
 
+#include <map>
+
 #include "io/field_values.h"
 #include "jobs/job_preview.h"
 #include "surface/maps.h"
@@ -86,17 +88,17 @@ Json preview_settings(const PreviewEntry& preview, const Named<std::string>& fil
   return settings;
 }
 
-// The one without a name as "preview", the others in "previews"; which other jobs have them does not
-// count.
+// The one without a name as "preview", the others in "previews". Neither their order in the config
+// counts nor which other jobs have them.
 void add_previews(const std::vector<const PreviewEntry*>& previews,
                   const Named<Named<std::string>>& files, const fs::path& folder, Json& settings) {
-  Json named;
+  std::map<std::string, Json> named;
   for (std::size_t i = 0; i < previews.size(); ++i) {
     const std::string& name = previews[i]->name;
     (name.empty() ? settings["preview"] : named[name]) =
         preview_settings(*previews[i], files[i].second, folder);
   }
-  if (!named.empty()) settings["previews"] = std::move(named);
+  for (auto& [name, own] : named) settings["previews"][name] = std::move(own);
 }
 
 }  // namespace

@@ -42,25 +42,28 @@ Cost estimate_maps(const MapParams& params, Size size) {
                                3e-8 * params.curvature)}};
 }
 
-Cost estimate_maps(const SurfaceParams& params, Size size) {
+Cost estimate_maps(const SurfaceParams& params, Size size, Tile wraps) {
   Cost cost = estimate_maps(static_cast<const MapParams&>(params), size);
   if (!params.guess) return cost;
-  // Planes with what is beyond the edges, about as much again on each side.
-  const double pixels = 1.0 * size.width * size.height;
-  cost.bytes = std::max(cost.bytes, 70 * pixels);
-  cost.work.serial += 2e-7 * pixels;
+  // Planes with what is beyond edges that meet, half a shorter side each way.
+  const double beyond = 1.05 * std::min(size.width, size.height);
+  const double pixels = 1.0 * size.width * size.height,
+               padded = (size.width + (tiles_x(wraps) ? beyond : 0)) *
+                        (size.height + (tiles_y(wraps) ? beyond : 0));
+  cost.bytes = std::max(cost.bytes, 8 * pixels + 20 * padded);
+  cost.work.serial += 1e-7 * padded;
   return cost;
 }
 
-Image one_channel(const Image& height, float tolerance) {
-  if (height.channels == 1) return height;
-  for (std::size_t i = 0; i < height.pixels.size();) {
-    const float first = height.pixels[i++];
-    for (int c = 1; c < height.channels; ++c)
-      if (std::abs(height.pixels[i++] - first) > tolerance)
-        throw Error("a height map has {} channels that differ, allowed is 1", height.channels);
+Image one_channel(const Image& map, float tolerance, std::string_view called) {
+  if (map.channels == 1) return map;
+  for (std::size_t i = 0; i < map.pixels.size();) {
+    const float first = map.pixels[i++];
+    for (int c = 1; c < map.channels; ++c)
+      if (std::abs(map.pixels[i++] - first) > tolerance)
+        throw Error("a {} map has {} channels that differ, allowed is 1", called, map.channels);
   }
-  return extract_channels(height, 0, 1);
+  return extract_channels(map, 0, 1);
 }
 
 }  // namespace gramloom

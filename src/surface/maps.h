@@ -95,7 +95,7 @@ std::string height_among(const Maps& maps, const SurfaceParams& params) {
 
 /// What making them takes for a height of this size, and for that, if it is guessed.
 Cost estimate_maps(const MapParams& params, Size size);
-Cost estimate_maps(const SurfaceParams& params, Size size);
+Cost estimate_maps(const SurfaceParams& params, Size size, Tile wraps);
 
 /// The names of the maps that are asked for: "normal", "occlusion", "curvature".
 std::vector<std::string> maps_asked(const MapParams& params);
@@ -109,7 +109,8 @@ std::map<std::string, Image> maps_of_height(const Image& height, const MapParams
 
 /// A height map as one channel. Grey that a file stores as colours counts as one: channels that
 /// differ nowhere by more than `tolerance` (three steps of 8 bits, which JPEG may make of it).
-/// Throws Error for others.
-Image one_channel(const Image& height, float tolerance = 3.0f / 255);
+/// Throws Error for others, which calls it as here.
+Image one_channel(const Image& map, float tolerance = 3.0f / 255,
+                  std::string_view called = "height");
 
 }  // namespace gramloom

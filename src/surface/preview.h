@@ -40,6 +40,9 @@ Image linear_picture(const Image& picture);
 /// Whether a relief by the heights is asked for: then it goes before a normal map.
 bool asks_for_relief(const PreviewParams& params);
 
+/// Throws Error for maps that a preview does not know, of other sizes, or of too many channels.
+void check_material(const PreviewMaterial& material);
+
 /// Throws ConfigError for parameters out of range, or that don't fit together.
 void check_preview(const PreviewParams& params);
 

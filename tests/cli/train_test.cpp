@@ -143,6 +143,16 @@ TEST_F(TrainCommand, ModelsOfOneNameAreRefused) {
   EXPECT_THAT(outcome.errors, HasSubstr("two models would be called 'spots_b'"));
 }
 
+TEST_F(TrainCommand, WhatNoPreviewCanUseIsSaidBeforeTheWork) {
+  write_config();
+  write_text(folder_ / "none.png", "no picture");
+  const Outcome outcome = train({"--set", "preview.second=none.png"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.errors, HasSubstr("preview: "));
+  EXPECT_THAT(outcome.errors, HasSubstr("none.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
 TEST_F(TrainCommand, SaysWhatIsWrongInOneLine) {
   const auto expect = [&](std::vector<std::string> words, const std::string& why) {
     const Outcome outcome = run(words);

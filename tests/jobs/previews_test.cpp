@@ -10,6 +10,7 @@
 namespace gramloom {
 namespace {
 
+namespace fs = std::filesystem;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
@@ -87,10 +88,44 @@ TEST_F(PreviewsOfJobs, ASecondMaterialSharesTheShape) {
   EXPECT_TRUE(files.contains("second_roughness"));
 }
 
+// A run that was stopped while it made them goes on: they are files of ours though no record knows
+// them.
+TEST_F(PreviewsOfJobs, OfAJobThatWasStoppedAreReplaced) {
+  const std::string text = two_solids + shown("ball");
+  ASSERT_EQ(run_text(text).done, 2);
+  fs::remove(out("procedural/m/seed1.json"));
+  EXPECT_EQ(resume(text).done, 1);
+  // What others have put there is not.
+  fs::remove(out("procedural/m/seed1_preview_ball.png"));
+  fs::create_directory(out("procedural/m/seed1_preview_ball.png"));
+  EXPECT_THAT(refusal(text), HasSubstr("seed1_preview_ball.png"));
+  EXPECT_TRUE(fs::is_directory(out("procedural/m/seed1_preview_ball.png")));
+}
+
+TEST_F(PreviewsOfJobs, TheirOrderInTheConfigDoesNotCount) {
+  const std::string a = shown("a"), b = shown("b", "shape = 'cube'\n");
+  ASSERT_EQ(run_text(two_solids + a + b).done, 2);
+  EXPECT_EQ(resume(two_solids + b + a).skipped, 2);
+  const Json first = record("procedural/m/seed1").settings;
+  ASSERT_EQ(run_text(two_solids + b + a).done, 2);
+  EXPECT_EQ(to_text(record("procedural/m/seed1").settings), to_text(first));
+}
+
+TEST_F(PreviewsOfJobs, ASecondPictureCountsInTheEstimate) {
+  const auto finishing = [&](const std::string& more) {
+    return make_plan(parse_config(two_solids + shown("p", more), folder_ / "c.toml"))
+        .jobs.front()
+        .finishing;
+  };
+  write_image(folder_ / "large.png", Image(2000, 1000, 1), {});
+  EXPECT_GT(finishing("second = 'large.png'\n").bytes, finishing("").bytes + 1e8);
+  EXPECT_GT(seconds(finishing("second = 'large.png'\n").work), seconds(finishing("").work) + 0.2);
+}
+
 // The config of one job, as it is kept with its texture, asks for the job's previews and no others.
 TEST_F(PreviewsOfJobs, AJobsOwnConfigHasThem) {
-  const std::string text = two_solids + shown("ball", "second = 'wood'\n") +
-                           shown("cut", "shape = 'cube'\nonly = '*/m'\n");
+  const std::string text = two_solids + shown("ball", "second = 'e.png'\nenvironment = 'e.png'\n") +
+                           shown("cut", "shape = 'cube'\nonly = '*/m'\n") + shown("plain");
   const Config all = parse_config(text, folder_ / "c.toml");
   FileHashes hashes;
   for (const PlannedJob& planned : list_jobs(all).jobs) {
@@ -99,6 +134,12 @@ TEST_F(PreviewsOfJobs, AJobsOwnConfigHasThem) {
     EXPECT_EQ(job_settings(own, job, input_hashes(own, job, hashes)),
               job_settings(all, planned.job, input_hashes(all, planned.job, hashes)))
         << planned.name;
+    const Json by_content =
+        settings_by_content(job_settings(own, job, input_hashes(own, job, hashes)));
+    const Json& ball = by_content["previews"]["ball"];
+    EXPECT_FALSE(ball.contains("second")) << "a file's hash stands for it";
+    EXPECT_FALSE(ball.contains("environment"));
+    EXPECT_TRUE(ball["files"].contains("second"));
   }
 }
 
@@ -121,15 +162,21 @@ TEST_F(PreviewsOfJobs, MistakesAreOneLineWithTheirPlace) {
   says(shown("a", "second = 'e.png'\nmapping = 'solid'\n"), "a picture is no solid");
   says(shown("a", "second = 'brick'\nmapping = 'solid'\n"), "preview 'a': ");
   says(shown("a", "shap = 'cube'\n"), "did you mean 'shape'?");
+  write_image(folder_ / "s.png", Image(20, 20, 3), {});
+  write_image(folder_ / "s_height.png", Image(10, 10, 1), {});
+  says(shown("a", "second = 's.png'\n"), "10×10");
+  says("[[preview]]\nname = ''\n", "empty");
   says("[[preview]]\nrepeat = 2\nmapping = 'solid'\n", "preview: ");
   EXPECT_THAT(refusal(two_solids + "preview = 3\n"), HasSubstr("preview"));
   EXPECT_THAT(refusal(two_solids + shown("ball"), {"preview.bal.shape=cube"}),
               HasSubstr("no preview is called 'bal' (did you mean 'ball'?)"));
   EXPECT_THAT(refusal(two_solids, {"preview.bal.shape=cube"}), HasSubstr("none has a name"));
-  EXPECT_THAT(refusal("[[exemplar]]\nname = 'e'\nimage = 'e.png'\nmaps = { preview_a = 'e.png' }\n"
+  EXPECT_THAT(refusal("[[exemplar]]\nname = 'e'\nimage = 'e.png'\nmaps = { Preview_a = 'e.png' }\n"
                       "[[method]]\nname = 'b'\nkind = 'quilting'\n" +
                       shown("a")),
-              HasSubstr("the map 'preview_a' of 'e' would have the file of the preview 'a'"));
+              HasSubstr("the map 'Preview_a' of 'e' would have the file of the preview 'a'"));
+  EXPECT_THAT(refusal(two_solids, {"preview.repeat=2", "preview.mapping=solid"}),
+              HasSubstr("--set preview."));
 }
 
 }  // namespace

@@ -88,7 +88,8 @@ TEST_F(SurfaceOfJobs, HeightsAreGuessedWhereAnExemplarHasNone) {
   // One that has a height keeps it.
   const Image picture = read_image(folder_ / "e.png").image;
   write_image(folder_ / "h.png", extract_channels(picture, 0, 1), {PixelType::uint16, "", {}});
-  ASSERT_EQ(run_text(exemplar(1) + "[surface]\nguess = true\nnormal = true\n").done, 1);
+  const std::string other = "[[exemplar]]\nname = 'f'\nimage = 'e.png'\n";
+  ASSERT_EQ(run_text(exemplar(1) + other + "[surface]\nguess = true\nnormal = true\n").done, 2);
   EXPECT_THAT(record("e/b/seed1").files,
               testing::UnorderedElementsAre("seed1.png", "seed1_height.png", "seed1_normal.png"));
 }
@@ -150,6 +151,14 @@ TEST_F(SurfaceOfJobs, MistakesAreOneLineWithTheirPlace) {
                     "maps = { height = 'h.png', normal = 'e.png' }\n"
                     "[[method]]\nname = 'b'\nkind = 'quilting'\n"),
             "c.toml:1:2: the map 'normal' is the exemplar's own, of 'e': leave one of the two out");
+  EXPECT_EQ(refusal(stone + "[surface]\nguess = true\n"),
+            "c.toml:13:2: 'guess' has no effect: no method here makes textures of an exemplar");
+  EXPECT_EQ(refusal(exemplar(1) + "[surface]\nguess = true\nheight = 'height'\n"),
+            "c.toml:10:2: 'guess' has no effect: every exemplar has a height");
+  EXPECT_EQ(refusal("[surface]\nguess = true\n[[exemplar]]\nname = 'e'\nimage = 'e.png'\n"
+                    "maps = { Height = 'h.png' }\n[[method]]\nname = 'b'\nkind = 'quilting'\n"),
+            "c.toml:1:2: the map 'Height' of 'e' would have the file of the guessed 'height': "
+            "rename it");
   EXPECT_EQ(refusal(stone + "[surface]\nstrength = 0\n"),
             "c.toml:14:1: 'strength' = 0: allowed are 0.001 to 100000");
   EXPECT_EQ(refusal(stone + "[surface]\nnormals = true\n"),
