@@ -110,7 +110,7 @@ class Guard {
       if (!listed && !picture && !is_own_name(rest)) continue;  // it stays as it is
       const bool known = *record || (before_.is_ours && before_.begun.contains(planned.name));
       check(folder_ / *name, [&](const fs::path& file) {
-        return known && (listed || !picture || made_by_us(file));
+        return known && ((listed && !fs::is_directory(file)) || !picture || made_by_us(file));
       });
     }
   }
@@ -119,7 +119,7 @@ class Guard {
   void check(const fs::path& file, const auto& is_ours) const {
     if (!is_there(file)) return;
     inputs_.check(file);
-    if (fs::is_directory(file) || !is_ours(file)) refuse_file_of_others(file);
+    if (!is_ours(file)) refuse_file_of_others(file);
   }
 
   // Of the texture and its maps.

@@ -4,6 +4,7 @@
 #include "core/threads.h"
 #include "neural/directed_settings.h"
 #include "neural/settings.h"
+#include "neural/settling_cost.h"
 #include "neural/synthesis.h"
 
 namespace gramloom {
@@ -144,6 +145,8 @@ Cost estimate(const NeuralParams& asked, const RequestSize& request) {
                  work_of_step(params, area * loss.work, size.values() * area,
                               at_level(params.optimizer, level));
   }
+  if (channels > 3)  // maps, it may be
+    cost.work.operations += settling_operations(1.0 * target.size.width * target.size.height);
   return cost;
 }
 

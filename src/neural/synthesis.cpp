@@ -27,6 +27,7 @@
 #include "neural/picture.h"
 #include "neural/resample.h"
 #include "neural/settings.h"
+#include "neural/settled_maps.h"
 #include "neural/shared_rows.h"
 #include "signal/histogram_match.h"
 #include "signal/layer_axes.h"
@@ -39,7 +40,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double seconds_between_checkpoints = 60;
 
-enum class Stream : std::uint64_t { loss = 1, edges, layout, nearest };
+enum class Stream : std::uint64_t { loss = 1, edges, layout, nearest, maps };
 
 // The colours that the loss sees: an affine map of the exemplar's, undone for the result. Along the
 // principal axes of each layer the deviation becomes d^(1 − whitening), in units of the layer's
@@ -408,6 +409,24 @@ class Synthesis {
   Clock::time_point start_, last_checkpoint_;
 };
 
+// The maps as the colours tell them.
+void settle(const Exemplar& exemplar, const Request& request, const Group& group, Image& own) {
+  const Random random = request.random.stream(std::uint64_t(Stream::maps));
+  const std::vector<Layer> layers = told_layers(exemplar, random);
+  if (layers.empty()) return;
+  const std::int64_t height = request.target.size.height;
+  const Rows rows = own_rows(group, height);
+  if (group.alone()) {
+    settle_maps(exemplar, layers, request.target.tile, random, {own, 0, height}, rows, group, own);
+    return;
+  }
+  const RowExchange exchange(group, height,
+                             {rows.begin - settled_margin, rows.end + settled_margin});
+  const Image around = to_image(exchange.take(held_by(group, to_planes(own), height)).data);
+  settle_maps(exemplar, layers, request.target.tile, random,
+              {around, rows.begin - settled_margin, height}, rows, group, own);
+}
+
 }  // namespace
 
 Texture run_synthesis(const NeuralParams& asked, const Request& request, const Control& control,
@@ -421,6 +440,7 @@ Texture run_synthesis(const NeuralParams& asked, const Request& request, const C
   Synthesis synthesis(params, request, united, control, group);
   Texture texture;
   texture.image = unwhitened(to_image(synthesis.run()), synthesis.colours());
+  settle(exemplar, request, group, texture.image);
   const Image pixels = usable_pixels(exemplar.image, exemplar.mask);
   if (params.match_histogram) match_histogram(texture.image, pixels);
   clamp_to(texture.image, channel_range(pixels));
