@@ -31,7 +31,8 @@ namespace gramloom {
 ///   much of each of several exemplars as it has;
 /// - a guide's channels are compared as the features are, patch by patch, and once more when each
 ///   pixel is chosen, so that labels end where they are painted (Hertzmann et al. 2001, "Image
-///   analogies", whose texture by numbers this is; weights of exemplars are such a guide);
+///   analogies", whose texture by numbers this is; weights of exemplars are such a guide, and those
+///   that are everywhere the same become islands: signal/share_labels.h);
 /// - a fill is that of Wexler, Shechtman, Irani 2007 ("Space-time completion of video"): known
 ///   pixels stay, and only patches that touch a hole are searched, those near known pixels with
 ///   the stronger votes. Departures: their coarsest level starts from what grows inward from the

@@ -16,6 +16,7 @@
 #include "core/threads.h"
 #include "signal/mirror.h"
 #include "signal/patch_field.h"
+#include "signal/share_labels.h"
 #include "signal/united.h"
 
 namespace gramloom {
@@ -25,6 +26,8 @@ namespace {
 /// Where there are no known pixels, growth draws from the places that are this much worse than the
 /// best.
 constexpr float growth_tolerance = 0.1f;
+
+constexpr std::uint64_t stream_of_labels = std::uint64_t{1} << 32;  // none of a level's
 
 /// In a fill what goes on must go on in phase: the first passes of a level also try all origins
 /// this near, which coarser pixels could not tell apart, and all passes more random ones.
@@ -215,8 +218,17 @@ bool is_directed(const RequestSize& request) {
          request.known;
 }
 
-Texture directed_patchmatch(const PatchmatchParams& params, const Request& request,
+Texture directed_patchmatch(const PatchmatchParams& params, const Request& asked_for,
                             const Control& control) {
+  // As a guide, weights that are everywhere the same would choose the largest of them everywhere.
+  const bool even = asked_for.exemplars.size() > 1 && asked_for.target.weights.size() == Size{1, 1};
+  Request labelled;
+  if (even) {
+    labelled = asked_for;
+    labelled.target.weights =
+        labels_of_shares(asked_for.target, asked_for.random.stream(stream_of_labels));
+  }
+  const Request& request = even ? labelled : asked_for;
   const United united(request);
   const Size exemplar = united.exemplar().image.size();
   check_origins(exemplar);
@@ -283,7 +295,8 @@ Cost estimate_directed(const PatchmatchParams& params, const RequestSize& reques
   const double work = request.known ? 3.6 : 1.3;
   return {.bytes = target * (request.known ? 16 + 8 * channels : 12 + 4 * channels) +
                    made * (64 + 24.0 * planes) +
-                   samples * (52 + 24.0 * planes + (copied ? 8 : 4) * channels),
+                   samples * (52 + 24.0 * planes +
+                              ((copied ? 8 : 4) + (request.weights ? 4 : 0)) * channels),
           .work = {.serial = (samples + target) * 1.1e-7,
                    .shared = made * iterations * (45 + 15 * tries) * 1e-9 * (work + 0.5 * planes)}};
 }

@@ -38,7 +38,7 @@ Command add_arrange(CLI::App& program) {
                    "a picture for each of the exemplar, as large as that, in their order; of a "
                    "picture filled of others, that one last")
       ->required();
-  command->add_option("--output", arguments->output, "the result (.png, .tif, .exr, .jpg …)")
+  command->add_option("--output", arguments->output, "the result (.png, .tif, .exr …)")
       ->required()
       ->type_name("FILE");
   return {command, [arguments] { return arrange(*arguments); }};

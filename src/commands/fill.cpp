@@ -56,7 +56,7 @@ Command add_fill(CLI::App& program) {
       ->add_option("--mask", arguments->mask,
                    "a picture of its size: white is made anew; or alpha: where it is transparent")
       ->type_name("FILE");
-  command->add_option("--output", arguments->output, "the result (.png, .tif, .exr, .jpg …)")
+  command->add_option("--output", arguments->output, "the result (.png, .tif, .exr …)")
       ->type_name("FILE");
   add_word(*command, "--seamless", work.seamless, "make the edges anew, so that these meet; none");
   command->add_option("--band", work.band, "width of that band on each side; an eighth, 64 at most")

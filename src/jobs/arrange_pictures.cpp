@@ -75,7 +75,12 @@ std::vector<std::string> arrange_pictures(const ArrangeWork& work) {
   std::vector<Exemplar> pictures;
   Encoding encoding;
   for (const fs::path& file : work.pictures) {
-    ImageFile picture = read_image(file);
+    ImageFile picture;
+    try {
+      picture = read_image(file);
+    } catch (const Error& error) {
+      throw ConfigError("arrange: {}", error.what());
+    }
     if (pictures.empty()) encoding = picture.encoding;
     const PixelType type = picture.encoding.pixel_type;
     if (type != encoding.pixel_type)

@@ -115,9 +115,22 @@ void check_seeds(const Config& config, const toml::table& table) {
   if (different.size() != config.seeds.size()) fail(region, "'seeds' has a seed twice");
 }
 
+// Coordinates are of pixels that are the exemplar's.
+void check_coordinates(const Config& config) {
+  if (!config.coordinates) return;
+  for (const MethodEntry& entry : config.methods)
+    if (const auto* quilting = std::get_if<QuiltingParams>(&entry.method);
+        quilting && quilting->feather > 0)
+      throw ConfigError(
+          "{}: method '{}': feather = {} blends pixels, and there are no coordinates of blends: "
+          "allowed with coordinates is 0",
+          entry.place, entry.name, quilting->feather);
+}
+
 // What only shows when all is read.
 void check_whole(const Config& config, const toml::table& table) {
   check_seeds(config, table);
+  check_coordinates(config);
   if (config.methods.empty() && config.models.empty())
     throw ConfigError("{}: there is no [[method]]", config.file.string());
   for (const auto& method : config.methods)

@@ -1,5 +1,8 @@
 #include "jobs/fill_picture.h"
 
+#include <algorithm>
+
+#include "jobs/key_lists.h"
 #include "jobs/loaded_request.h"
 #include "jobs/machine.h"
 #include "jobs/memory.h"
@@ -18,12 +21,22 @@ void check_output_file(const FillWork& work, const Config& config) {
   try {
     stored_type(work.output.extension().string(), PixelType::uint8);
     if (is_lossy(work.output.extension().string()))
-      throw Error("{} would not keep what is left as it is: choose another format",
-                  work.output.string());
+      throw Error(
+          "{} would not keep what is left as it is: choose another format (.png, .tif, .exr)",
+          work.output.string());
     check_result(work.output, config, fill_mark);
   } catch (const Error& error) {
     throw ConfigError("fill: {}", error.what());
   }
+}
+
+// What is left must keep its values.
+void check_exact(const FillWork& work, PixelType type) {
+  if (stored_type(work.output.extension().string(), type) == type) return;
+  throw ConfigError(
+      "fill: {} cannot hold the pixel type {} of {} and would change values: choose another format "
+      "(.png, .tif, .exr)",
+      work.output.string(), to_word(type), work.picture.string());
 }
 
 // What the method refuses, or has no memory for.
@@ -42,9 +55,26 @@ void check_possible(const FillWork& work, const Method& method, const RequestSiz
   if (!refusal.empty()) throw ConfigError("fill {}: {}", work.picture.string(), refusal);
 }
 
+// Throws ConfigError for a known method that cannot fill: of others the config's reader speaks.
+void check_fills(const std::string& kind) {
+  std::vector<std::string> can;
+  bool known = false, fills = false;
+  for (const KeyList& list : method_lists()) {
+    const bool one = std::ranges::find(list.abilities, "fill") != list.abilities.end();
+    if (one) can.push_back(list.name);
+    if (list.name != kind) continue;
+    known = true;
+    fills = one;
+  }
+  if (known && !fills)
+    throw ConfigError("fill: --method {} cannot fill; methods that can: {}", kind,
+                      fmt::join(can, ", "));
+}
+
 }  // namespace
 
 std::string config_of(const FillWork& work) {
+  check_fills(work.method);
   std::string text =
       fmt::format("seeds = [{}]\n\n[fill]\nimage = {}\n", work.seed, quoted_path(work.picture));
   if (work.mask == "alpha")
@@ -63,13 +93,25 @@ std::string config_of(const FillWork& work) {
 std::vector<std::string> fill_picture(const FillWork& work, const Control& control) {
   Config config = parse_unseen_config(config_of(work), "fill");
   check_output_file(work, config);
+  for (ExemplarEntry& exemplar : config.exemplars) exemplar.place = "fill";  // there is no line
   LoadedRequest loaded = load_request(config, 0);
+  check_exact(work, loaded.files.front().encoding.pixel_type);
   const std::vector<ExemplarFile> files = std::move(loaded.files);
   const Method& method = config.methods.front().method;
   const Request request{std::move(loaded.exemplars), std::move(loaded.target),
                         Random(static_cast<std::uint64_t>(work.seed))};
   check_possible(work, method, size_of(request));
-  const Texture texture = finished_texture(method, request, control);
+  const Texture texture = [&] {
+    try {
+      return finished_texture(method, request, control);
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const ConfigError&) {
+      throw;
+    } catch (const Error& error) {
+      throw ConfigError("fill {}: {}", work.picture.string(), error.what());
+    }
+  }();
   Metadata metadata = std::move(loaded.metadata);
   metadata[fill_mark] = version();
   std::vector<std::string> notes = std::move(loaded.notes);

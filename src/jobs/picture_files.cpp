@@ -73,9 +73,9 @@ void check_alike(const PictureFiles& first, const PictureFiles& other, const std
       throw ConfigError("{}: {} has {} where {} has {}: they are of one material", place,
                         first.file.string(), name_of(a), other.file.string(), name_of(b));
     if (a.channels != b.channels)
-      throw ConfigError("{}: {} has {} channels of {} and {} of {}: they must be equal", place,
-                        name_of(a), a.channels, first.file.string(), b.channels,
-                        other.file.string());
+      throw ConfigError("{}: {} of {} has {} channels, and of {} {}: they must be equal", place,
+                        name_of(a), first.file.string(), a.channels, other.file.string(),
+                        b.channels);
     if (a.kind != b.kind || a.green != b.green)
       throw ConfigError("{}: {} is of another kind for {} than for {}: say kind and green", place,
                         name_of(a), first.file.string(), other.file.string());

@@ -103,6 +103,9 @@ TEST_F(FillCommand, AFileOfTheUserIsNotTakenForAnOldGuide) {
 }
 
 TEST_F(FillCommand, MistakesAreOneLineAndExitCode2) {
+  write_image(folder_ / "e16.png", read_image(folder_ / "e.png").image,
+              {PixelType::uint16, "", {}});
+  write_image(folder_ / "grey.png", Image(64, 64, 1, 0.5f), {});
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{"e.png", "--output", "a.png"}, "needs 'mask', 'seamless' or 'extend'"},
       {{"e.png", "--mask", "hole.png"}, "--output or --print-config"},
@@ -112,6 +115,11 @@ TEST_F(FillCommand, MistakesAreOneLineAndExitCode2) {
        "methods that can"},
       {{"e.png", "--mask", "hole.png", "--method", "pixle", "--output", "a.png"}, "pixel"},
       {{"e.png", "--mask", "hole.png", "--output", "a.jpg"}, "would not keep"},
+      {{"e16.png", "--mask", "hole.png", "--output", "a.bmp"}, "cannot hold the pixel type uint16"},
+      {{"e.png", "--mask", "hole.png", "--method", "procedural", "--output", "a.png"},
+       "methods that can"},
+      {{"e.png", "--mask", "hole.png", "--from", "grey.png", "--output", "a.png"},
+       "grey.png has 1 channels, and of"},
       {{"e.png", "--mask", "hole.png", "--output", "none/a.png"}, "there is no folder"},
       {{"e.png", "--mask", "nothing.png", "--output", "a.png"}, "nothing.png"},
   };

@@ -166,6 +166,21 @@ TYPED_TEST(Directed, AWeightPictureSaysWhichOfTwoExemplarsGoesWhere) {
   EXPECT_GT(right / (48 * 60), 8.5);
 }
 
+TYPED_TEST(Directed, WeightsThatAreEverywhereTheSameAreShares) {
+  if (!this->can(Ability::mix)) GTEST_SKIP() << "does not mix";
+  Image brighter = grain({48, 40}, 3);
+  for (float& value : brighter.pixels) value += 10;
+  Request request = this->request(grain({48, 40}, 3), {{96, 60}});
+  request.exemplars.push_back({brighter});
+  request.target.weights = Image(1, 1, 2);
+  request.target.weights.pixels = {3, 1};
+  const Image image = synthesise(this->enough(), request, {}).image;
+  double sum = 0;
+  for (std::size_t i = 0; i < image.pixels.size(); i += static_cast<std::size_t>(image.channels))
+    sum += double{image.pixels[i]};
+  EXPECT_NEAR(sum / (96 * 60), 0.5 + 10 * 0.25, 1.5);
+}
+
 TYPED_TEST(Directed, SameBytesForAnyThreads) {
   if (!this->can(Ability::fill) && !this->can(Ability::mask)) GTEST_SKIP() << "is not directed";
   if (TestFixture::is_neural) GTEST_SKIP() << "the same for the same number of threads";
