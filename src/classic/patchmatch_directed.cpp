@@ -27,8 +27,6 @@ namespace {
 /// best.
 constexpr float growth_tolerance = 0.1f;
 
-constexpr std::uint64_t stream_of_labels = std::uint64_t{1} << 32;  // none of a level's
-
 /// In a fill what goes on must go on in phase: the first passes of a level also try all origins
 /// this near, which coarser pixels could not tell apart, and all passes more random ones.
 constexpr int near_passes = 2;
@@ -220,15 +218,8 @@ bool is_directed(const RequestSize& request) {
 
 Texture directed_patchmatch(const PatchmatchParams& params, const Request& asked_for,
                             const Control& control) {
-  // As a guide, weights that are everywhere the same would choose the largest of them everywhere.
-  const bool even = asked_for.exemplars.size() > 1 && asked_for.target.weights.size() == Size{1, 1};
-  Request labelled;
-  if (even) {
-    labelled = asked_for;
-    labelled.target.weights =
-        labels_of_shares(asked_for.target, asked_for.random.stream(stream_of_labels));
-  }
-  const Request& request = even ? labelled : asked_for;
+  const std::optional<Request> labelled = with_labels(asked_for);
+  const Request& request = labelled ? *labelled : asked_for;
   const United united(request);
   const Size exemplar = united.exemplar().image.size();
   check_origins(exemplar);

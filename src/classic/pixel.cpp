@@ -7,6 +7,7 @@
 #include "classic/known_pixels.h"
 #include "classic/pixel_algorithms.h"
 #include "core/error.h"
+#include "signal/share_labels.h"
 #include "signal/united.h"
 
 namespace gramloom {
@@ -34,8 +35,9 @@ void check_algorithm(const PixelParams& params, const RequestSize& request) {
         "target's mask is given (lefebvre_hoppe and efros_leung can)");
 }
 
-Texture synthesise_whole(const PixelParams& params, const Request& request,
-                         const Control& control) {
+Texture synthesise_whole(const PixelParams& params, const Request& asked, const Control& control) {
+  const std::optional<Request> labelled = with_labels(asked);
+  const Request& request = labelled ? *labelled : asked;
   const United united(request);
   const Target& target = request.target;
   const ExemplarQuota quota(request, united);

@@ -9,7 +9,8 @@ namespace gramloom {
 
 namespace {
 
-constexpr double island_deviation = 12;  // pixels
+constexpr double island_deviation = 12;                             // pixels
+constexpr std::uint64_t stream_of_labels = std::uint64_t{1} << 32;  // none that methods have
 
 }  // namespace
 
@@ -34,6 +35,15 @@ Image labels_of_shares(const Target& target, Random random) {
     for (; next < end; ++next) labels.pixels[order[next] * weights.size() + i] = 1;
   }
   return labels;
+}
+
+std::optional<Request> with_labels(const Request& request) {
+  if (request.exemplars.size() < 2 || request.target.weights.size() != Size{1, 1})
+    return std::nullopt;
+  Request labelled = request;
+  labelled.target.weights =
+      labels_of_shares(request.target, request.random.stream(stream_of_labels));
+  return labelled;
 }
 
 }  // namespace gramloom

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/random.h"
 #include "core/request.h"
 
@@ -10,5 +12,9 @@ namespace gramloom {
 /// for the others. Places of one exemplar are islands a few patches wide, and each has exactly its
 /// share of the pixels, but for rounding.
 Image labels_of_shares(const Target& target, Random random);
+
+/// The request with such labels in place of weights of several exemplars that are everywhere the
+/// same: as a guide these would choose the largest of them everywhere. None where there are none.
+std::optional<Request> with_labels(const Request& request);
 
 }  // namespace gramloom

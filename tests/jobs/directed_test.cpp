@@ -170,7 +170,7 @@ TYPED_TEST(Directed, WeightsThatAreEverywhereTheSameAreShares) {
   if (!this->can(Ability::mix)) GTEST_SKIP() << "does not mix";
   Image brighter = grain({48, 40}, 3);
   for (float& value : brighter.pixels) value += 10;
-  Request request = this->request(grain({48, 40}, 3), {{96, 60}});
+  Request request = this->request(grain({48, 40}, 3), {{160, 120}});
   request.exemplars.push_back({brighter});
   request.target.weights = Image(1, 1, 2);
   request.target.weights.pixels = {3, 1};
@@ -178,7 +178,7 @@ TYPED_TEST(Directed, WeightsThatAreEverywhereTheSameAreShares) {
   double sum = 0;
   for (std::size_t i = 0; i < image.pixels.size(); i += static_cast<std::size_t>(image.channels))
     sum += double{image.pixels[i]};
-  EXPECT_NEAR(sum / (96 * 60), 0.5 + 10 * 0.25, 1.5);
+  EXPECT_NEAR(sum / (160 * 120), 0.5 + 10 * 0.25, 1.5);
 }
 
 TYPED_TEST(Directed, SameBytesForAnyThreads) {
