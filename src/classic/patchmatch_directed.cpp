@@ -284,12 +284,15 @@ Cost estimate_directed(const PatchmatchParams& params, const RequestSize& reques
   // A fill works on what is about its holes, too, and grows their first pixels.
   const double tries = params.tries + (request.known ? more_tries : 0);
   const double work = request.known ? 3.6 : 1.3;
-  return {.bytes = target * (request.known ? 16 + 8 * channels : 12 + 4 * channels) +
-                   made * (64 + 24.0 * planes) +
-                   samples * (52 + 24.0 * planes +
-                              ((copied ? 8 : 4) + (request.weights ? 4 : 0)) * channels),
-          .work = {.serial = (samples + target) * 1.1e-7,
-                   .shared = made * iterations * (45 + 15 * tries) * 1e-9 * (work + 0.5 * planes)}};
+  const double labels =
+      request.weights ? 8 + 4.0 * static_cast<double>(request.exemplars.size()) : 0;
+  return {
+      .bytes = target * labels + target * (request.known ? 16 + 8 * channels : 12 + 4 * channels) +
+               made * (64 + 24.0 * planes) +
+               samples *
+                   (52 + 24.0 * planes + ((copied ? 8 : 4) + (request.weights ? 4 : 0)) * channels),
+      .work = {.serial = (samples + target) * 1.1e-7,
+               .shared = made * iterations * (45 + 15 * tries) * 1e-9 * (work + 0.5 * planes)}};
 }
 
 }  // namespace gramloom

@@ -93,6 +93,9 @@ Cost estimate(const PixelParams& params, const RequestSize& request) {
     cost.bytes += from * 4 * channels;
   if (request.known) cost.bytes += to * (4 * channels + 8 * compared);
   if (request.guide || request.weights) cost.bytes += 32 * (from + to);
+  if (request.weights)  // labels, and a copy of the request
+    cost.bytes +=
+        from * 4 * channels + to * (8 + 4.0 * static_cast<double>(request.exemplars.size()));
   // Lists of like samples take more the more there are to look through.
   const double lists = 1.4e-6 * candidates * from * std::pow(from / 65536, 0.3);
   const double made = to * request.made;

@@ -29,12 +29,12 @@ void check_output_file(const ArrangeWork& work) {
 // No value is changed: the file must hold them all.
 void check_exact(const ArrangeWork& work, PixelType type) {
   const std::string extension = work.output.extension().string();
-  const bool lossy = is_lossy(extension);
-  if (lossy || stored_type(extension, type) != type)
-    throw ConfigError("arrange: {} {} and would change values: choose another format",
+  if (!keeps_values(extension, type))
+    throw ConfigError("arrange: {} {} and would change values: choose another format, as .tif",
                       work.output.string(),
-                      lossy ? "loses some on the way"
-                            : fmt::format("cannot hold the pixel type {}", to_word(type)));
+                      is_lossy(extension)
+                          ? "loses some on the way"
+                          : fmt::format("cannot hold the pixel type {}", to_word(type)));
 }
 
 void check_pictures(const ArrangeWork& work, const Arrangement& arrangement,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/image_encode.h"
 #include "jobs/key_lists.h"
 #include "jobs/loaded_request.h"
 #include "jobs/machine.h"
@@ -21,22 +22,28 @@ void check_output_file(const FillWork& work, const Config& config) {
   try {
     stored_type(work.output.extension().string(), PixelType::uint8);
     if (is_lossy(work.output.extension().string()))
-      throw Error(
-          "{} would not keep what is left as it is: choose another format (.png, .tif, .exr)",
-          work.output.string());
+      throw Error("{} would not keep what is left as it is: choose another format, as .tif",
+                  work.output.string());
     check_result(work.output, config, fill_mark);
   } catch (const Error& error) {
     throw ConfigError("fill: {}", error.what());
   }
 }
 
-// What is left must keep its values.
-void check_exact(const FillWork& work, PixelType type) {
-  if (stored_type(work.output.extension().string(), type) == type) return;
-  throw ConfigError(
-      "fill: {} cannot hold the pixel type {} of {} and would change values: choose another format "
-      "(.png, .tif, .exr)",
-      work.output.string(), to_word(type), work.picture.string());
+// What is left must keep its values, and all channels must have a place.
+void check_exact(const FillWork& work, const ExemplarFile& file) {
+  const std::string extension = work.output.extension().string();
+  const PixelType type = file.encoding.pixel_type;
+  if (!keeps_values(extension, type))
+    throw ConfigError(
+        "fill: {} cannot hold the pixel type {} of {} and would change values: choose another "
+        "format, as .tif",
+        work.output.string(), to_word(type), work.picture.string());
+  try {
+    encoded_image(extension, Image(1, 1, file.channels), {});
+  } catch (const Error& error) {
+    throw ConfigError("fill: --output {}: {}", work.output.string(), error.what());
+  }
 }
 
 // What the method refuses, or has no memory for.
@@ -95,7 +102,7 @@ std::vector<std::string> fill_picture(const FillWork& work, const Control& contr
   check_output_file(work, config);
   for (ExemplarEntry& exemplar : config.exemplars) exemplar.place = "fill";  // there is no line
   LoadedRequest loaded = load_request(config, 0);
-  check_exact(work, loaded.files.front().encoding.pixel_type);
+  check_exact(work, loaded.files.front());
   const std::vector<ExemplarFile> files = std::move(loaded.files);
   const Method& method = config.methods.front().method;
   const Request request{std::move(loaded.exemplars), std::move(loaded.target),
@@ -109,7 +116,7 @@ std::vector<std::string> fill_picture(const FillWork& work, const Control& contr
     } catch (const ConfigError&) {
       throw;
     } catch (const Error& error) {
-      throw ConfigError("fill {}: {}", work.picture.string(), error.what());
+      throw Error("fill {}: {}", work.picture.string(), error.what());
     }
   }();
   Metadata metadata = std::move(loaded.metadata);

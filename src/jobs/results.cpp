@@ -85,7 +85,14 @@ OutputFormat output_format(const Config& config, const Encoding& exemplar, int c
 
 bool is_lossy(const std::string& extension) {
   const std::string small = in_small_letters(extension);
-  return small == ".jpg" || small == ".jpeg" || small == ".webp";
+  return small == ".jpg" || small == ".jpeg" || small == ".webp" || small == ".hdr";
+}
+
+bool keeps_values(const std::string& extension, PixelType type) {
+  const PixelType stored = stored_type(extension, type);
+  if (is_lossy(extension)) return false;
+  if (stored == type || stored == PixelType::float32) return true;
+  return type == PixelType::uint8 && (stored == PixelType::uint16 || stored == PixelType::half);
 }
 
 OutputFormats output_formats(const Config& config, const std::vector<ExemplarFile>& files,

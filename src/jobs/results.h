@@ -31,6 +31,9 @@ Image scaled(Image map, const OutputFormat& format);
 
 /// Whether files with this extension do not give back what was written.
 bool is_lossy(const std::string& extension);
+/// Whether values of this type come back from a file with this extension as they were. Throws Error
+/// for an extension that is not written.
+bool keeps_values(const std::string& extension, PixelType type);
 
 /// Those of a texture and of its maps by name. A map of the exemplar's keeps its file's encoding;
 /// one that the method thought of has the texture's, with finer steps where it has other channels;

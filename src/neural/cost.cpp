@@ -145,7 +145,7 @@ Cost estimate(const NeuralParams& asked, const RequestSize& request) {
                  work_of_step(params, area * loss.work, size.values() * area,
                               at_level(params.optimizer, level));
   }
-  if (channels > 3)  // maps, it may be
+  if (channels != 1 && channels != 3)  // maps, it may be
     cost.work.operations += settling_operations(1.0 * target.size.width * target.size.height);
   return cost;
 }

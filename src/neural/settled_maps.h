@@ -21,7 +21,8 @@ namespace gramloom::neural {
 // large as the exemplar's.
 //
 // A layer that is not told so, a grain that has nothing to do with the colours, would only lose its
-// contrast: it stays as it is. Whether it is told is tried on the exemplar itself.
+// contrast: it stays as it is. Whether it is told, by colours alone, is tried on the exemplar
+// itself.
 
 /// Which rows of a picture of `height` an image holds.
 struct ImageRows {
@@ -30,7 +31,7 @@ struct ImageRows {
   std::int64_t height = 0;
 };
 
-/// The layers of the exemplar after the first that its colours and maps tell.
+/// The layers of the exemplar after the first that its colours tell; no coverage.
 std::vector<Layer> told_layers(const Exemplar& exemplar, Random random);
 
 /// Changes the own rows of the picture, of the exemplar's layers, in these of its layers. `around`:

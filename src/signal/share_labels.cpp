@@ -1,6 +1,7 @@
 #include "signal/share_labels.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "signal/blur.h"
@@ -18,21 +19,25 @@ Image labels_of_shares(const Target& target, Random random) {
   Image field(target.size, 1);
   for (float& value : field.pixels) value = random.uniform();
   field = blurred(field, island_deviation, target.tile);
-  std::vector<std::size_t> order(field.pixels.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
-    const float u = field.pixels[a], v = field.pixels[b];
-    return u != v ? u < v : a < b;
-  });
+  // Shares are of what is made.
+  std::vector<float> made;
+  for (std::size_t i = 0; i < field.pixels.size(); ++i)
+    if (target.mask.empty() || target.mask.pixels[i] > 0.5f) made.push_back(field.pixels[i]);
+  std::ranges::sort(made);
   const std::vector<float>& weights = target.weights.pixels;
   const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
-  Image labels(target.size, static_cast<int>(weights.size()), 0.0f);
+  std::vector<float> ends;  // of each exemplar's part of the field
   double until = 0;
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    until += double{weights[i]} / all * static_cast<double>(order.size());
-    const auto end = i + 1 == weights.size() ? order.size() : static_cast<std::size_t>(until + 0.5);
-    for (; next < end; ++next) labels.pixels[order[next] * weights.size() + i] = 1;
+  for (const float weight : weights) {
+    until += double{weight} / all * static_cast<double>(made.size());
+    const auto end = static_cast<std::size_t>(until + 0.5);
+    ends.push_back(end < made.size() ? made[end] : std::numeric_limits<float>::infinity());
+  }
+  Image labels(target.size, static_cast<int>(weights.size()), 0.0f);
+  for (std::size_t i = 0; i < field.pixels.size(); ++i) {
+    std::size_t exemplar = 0;
+    while (field.pixels[i] >= ends[exemplar] && exemplar + 1 < ends.size()) ++exemplar;
+    labels.pixels[i * weights.size() + exemplar] = 1;
   }
   return labels;
 }

@@ -9,8 +9,8 @@ namespace gramloom {
 
 /// Weights of exemplars that are everywhere the same (a channel an exemplar, 1×1), for methods that
 /// take each place of one exemplar: of the target's size, 1 for one exemplar of each pixel and 0
-/// for the others. Places of one exemplar are islands a few patches wide, and each has exactly its
-/// share of the pixels, but for rounding.
+/// for the others. Places of one exemplar are islands a few patches wide, and each has its share of
+/// the pixels that are made.
 Image labels_of_shares(const Target& target, Random random);
 
 /// The request with such labels in place of weights of several exemplars that are everywhere the

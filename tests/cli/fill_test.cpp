@@ -1,6 +1,8 @@
 // `gramloom fill`, `gramloom arrange` and configs with [fill] from the command line.
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "cli/workspace.h"
 
 namespace gramloom {
@@ -102,6 +104,22 @@ TEST_F(FillCommand, AFileOfTheUserIsNotTakenForAnOldGuide) {
   EXPECT_EQ(file("out/f/e/target_guide.png"), before);
 }
 
+TEST_F(FillCommand, AWiderPixelTypeKeepsValues) {
+  const Image picture = read_image(folder_ / "e.png").image;
+  write_image(folder_ / "e16.png", picture, {PixelType::uint16, "", {}});
+  const Outcome outcome = run({"fill", "e16.png", "--mask", "hole.png", "--output", "a.exr"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const Image before = read_image(folder_ / "e16.png").image;
+  const Image after = read_image(folder_ / "a.exr").image;
+  const Image hole = read_image(folder_ / "hole.png").image;
+  for (int y = 0; y < before.height; ++y)
+    for (int x = 0; x < before.width; ++x) {
+      if (*hole.at(x, y) > 0.5f) continue;
+      for (int c = 0; c < 3; ++c)
+        ASSERT_EQ(std::lround(after.at(x, y)[c] * 65535), std::lround(before.at(x, y)[c] * 65535));
+    }
+}
+
 TEST_F(FillCommand, MistakesAreOneLineAndExitCode2) {
   write_image(folder_ / "e16.png", read_image(folder_ / "e.png").image,
               {PixelType::uint16, "", {}});
@@ -120,6 +138,7 @@ TEST_F(FillCommand, MistakesAreOneLineAndExitCode2) {
        "methods that can"},
       {{"e.png", "--mask", "hole.png", "--from", "grey.png", "--output", "a.png"},
        "grey.png has 1 channels, and of"},
+      {{"e16.png", "--mask", "hole.png", "--output", "a.hdr"}, "would not keep"},
       {{"e.png", "--mask", "hole.png", "--output", "none/a.png"}, "there is no folder"},
       {{"e.png", "--mask", "nothing.png", "--output", "a.png"}, "nothing.png"},
   };

@@ -9,6 +9,7 @@
 #include "core/threads.h"
 #include "neural/groups.h"
 #include "neural/shared_rows.h"
+#include "signal/blur.h"
 
 namespace gramloom::neural {
 namespace {
@@ -71,6 +72,20 @@ TEST(SettledMaps, AreThoseThatTheColoursTell) {
   alone.layers.resize(1);
   alone.image = extract_channels(alone.image, 0, 3);
   EXPECT_TRUE(told_layers(alone, Random(1)).empty());
+}
+
+// However smooth it is, so that each of its places is like others of itself.
+TEST(SettledMaps, AMapDoesNotTellItself) {
+  Exemplar exemplar = told_and_not(1);
+  Image noise(settled_size, 1);
+  Random random(5);
+  for (float& value : noise.pixels) value = random.uniform();
+  noise = blurred(noise, 3, Tile::both);
+  for (std::size_t i = 0; i < noise.pixels.size(); ++i)
+    exemplar.image.pixels[5 * i + 4] = noise.pixels[i];
+  const std::vector<Layer> layers = told_layers(exemplar, Random(1));
+  ASSERT_EQ(layers.size(), 1u);
+  EXPECT_EQ(layers.front().name, "height");
 }
 
 TEST(SettledMaps, FollowTheColours) {
