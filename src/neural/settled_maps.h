@@ -4,7 +4,7 @@
 
 #include "core/request.h"
 #include "neural/group.h"
-#include "neural/network/rows.h"
+#include "neural/map_references.h"
 
 namespace gramloom::neural {
 
@@ -23,13 +23,6 @@ namespace gramloom::neural {
 // A layer that is not told so, a grain that has nothing to do with the colours, would only lose its
 // contrast: it stays as it is. Whether it is told, by colours alone, is tried on the exemplar
 // itself.
-
-/// Which rows of a picture of `height` an image holds.
-struct ImageRows {
-  const Image& image;
-  std::int64_t first = 0;
-  std::int64_t height = 0;
-};
 
 /// The layers of the exemplar after the first that its colours tell; no coverage.
 std::vector<Layer> told_layers(const Exemplar& exemplar, Random random);
