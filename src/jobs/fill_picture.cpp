@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "core/variants.h"
 #include "io/image_encode.h"
-#include "jobs/key_lists.h"
 #include "jobs/loaded_request.h"
 #include "jobs/machine.h"
 #include "jobs/memory.h"
@@ -64,16 +64,12 @@ void check_possible(const FillWork& work, const Method& method, const RequestSiz
 
 // Throws ConfigError for a known method that cannot fill: of others the config's reader speaks.
 void check_fills(const std::string& kind) {
-  std::vector<std::string> can;
-  bool known = false, fills = false;
-  for (const KeyList& list : method_lists()) {
-    const bool one = std::ranges::find(list.abilities, "fill") != list.abilities.end();
-    if (one) can.push_back(list.name);
-    if (list.name != kind) continue;
-    known = true;
-    fills = one;
-  }
-  if (known && !fills)
+  const std::vector<std::string_view> can = methods_with(Ability::fill);
+  if (std::ranges::find(can, kind) != can.end()) return;
+  bool known = false;
+  for_each_alternative<Method>(
+      [&]<class Params>(std::type_identity<Params>) { known |= Params::kind == kind; });
+  if (known)
     throw ConfigError("fill: --method {} cannot fill; methods that can: {}", kind,
                       fmt::join(can, ", "));
 }

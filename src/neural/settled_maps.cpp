@@ -21,7 +21,7 @@ constexpr double told_share = 0.15;
 std::vector<Layer> told_layers(const Exemplar& exemplar, Random random) {
   std::vector<PatchPlace> places = shuffled_places(exemplar, random.stream(0));
   const std::size_t count = std::min(most_tried, places.size() / 4);
-  if (exemplar.layers.size() < 2 || count < least_tried) return {};
+  if (count < least_tried) return {};
   const auto first = places.begin(), last = first + static_cast<std::ptrdiff_t>(count);
   const std::vector<PatchPlace> tried(first, last);
   places.erase(first, last);

@@ -411,13 +411,14 @@ class Synthesis {
 
 // The maps as the colours tell them.
 void settle(const Exemplar& exemplar, const Request& request, const Group& group, Image& own) {
+  if (exemplar.layers.size() < 2) return;
   const Random random = request.random.stream(std::uint64_t(Stream::maps));
   std::vector<Layer> layers = told_layers(exemplar, random);
   // What each process finds may differ in the last bits: the first one says which are told.
   std::vector<std::int32_t> told(exemplar.layers.size());
   for (std::size_t i = 0; i < told.size(); ++i)
     told[i] = std::ranges::count(layers, exemplar.layers[i]) > 0 ? 1 : 0;
-  if (!group.alone() && !told.empty()) group.first(std::span(told));
+  if (!group.alone()) group.first(std::span(told));
   layers.clear();
   for (std::size_t i = 0; i < told.size(); ++i)
     if (told[i] != 0) layers.push_back(exemplar.layers[i]);
