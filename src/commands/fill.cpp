@@ -68,6 +68,12 @@ Command add_fill(CLI::App& program) {
       ->delimiter(',')
       ->check(CLI::Range(0, 65536))
       ->type_name("L,T,R,B");
+  command
+      ->add_option("--blend", work.blend,
+                   "within which colours that are copied go over into what stays; 4; 0: they stay "
+                   "copies")
+      ->check(CLI::Range(0, 64))
+      ->type_name("PIXELS");
   add_repeated(*command, "--from", arguments->from,
                "fill with what this picture shows, not the picture itself; can be repeated",
                "FILE");

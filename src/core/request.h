@@ -63,6 +63,10 @@ struct Target {
   /// How the exemplar is laid: two channels, of `size` or of 1×1: turns counter-clockwise, and the
   /// logarithm to base 2 of how much larger. Empty: upright, as large as it is.
   Image turn = {};
+  /// Over how many pixels what a method copies goes over into known pixels, in colours and scalars
+  /// (signal/blended_joins.h); 0: its pixels are the exemplars' own. Methods that copy nothing make
+  /// pixels that fit in any case.
+  int blend = 0;
 };
 
 /// Everything that a method is ever asked. A method ignores nothing silently: what it cannot honour

@@ -101,6 +101,7 @@ struct FillEntry {
   Tile seamless = Tile::none;
   int band = 0;
   std::vector<int> extend;
+  int blend = 4;
 
   static constexpr auto fields() {
     using F = FillEntry;
@@ -120,6 +121,12 @@ struct FillEntry {
               "add to the picture on its left, top, right and bottom",
               "pixels",
               {0, longest_side}},
+        Field{"blend",
+              &F::blend,
+              "within which colours and heights that are copied go over into what stays; 0: they "
+              "stay copies",
+              "pixels",
+              {0, 64}},
     };
   }
 };

@@ -88,6 +88,7 @@ std::string config_of(const FillWork& work) {
     text += fmt::format("seamless = \"{}\"\n", to_word(work.seamless));
   if (work.band > 0) text += fmt::format("band = {}\n", work.band);
   if (!work.extend.empty()) text += fmt::format("extend = [{}]\n", fmt::join(work.extend, ", "));
+  if (work.blend != FillEntry().blend) text += fmt::format("blend = {}\n", work.blend);
   if (!work.from.empty())
     text += "\n[[exemplar]]\nname = \"from\"\nimages = " + quoted_paths(work.from) + "\n";
   return text + fmt::format("\n[[method]]\nname = {0}\nkind = {0}\n", quoted(work.method));

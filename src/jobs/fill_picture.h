@@ -7,6 +7,7 @@
 #include "core/image.h"
 #include "core/progress.h"
 #include "io/field_values.h"
+#include "jobs/direction.h"
 
 namespace gramloom {
 
@@ -17,6 +18,7 @@ struct FillWork {
   Tile seamless = Tile::none;
   int band = 0;
   std::vector<int> extend;
+  int blend = FillEntry().blend;
   std::vector<std::filesystem::path> from;  // exemplars; none: the picture itself
   std::string method = "patchmatch";
   int seed = 1;

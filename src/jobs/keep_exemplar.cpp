@@ -24,10 +24,8 @@ void write_picture(const fs::path& folder, const std::string& name, const Image&
     if (extension != format.extension) remove_file(folder / (name + extension));
 }
 
-// A colour for each channel, far from those before it.
-std::array<float, 3> colour_of(int channel) {
-  constexpr double golden = 0.61803398875;
-  const double hue = std::fmod(0.05 + golden * channel, 1.0);
+// `hue`: 0 to 1, once round.
+std::array<float, 3> colour_of_hue(double hue) {
   std::array<float, 3> colour{};
   for (int c = 0; c < 3; ++c) {
     const double distance = std::abs(std::fmod(hue * 6 + 2 * c, 6.0) - 3);
@@ -35,6 +33,33 @@ std::array<float, 3> colour_of(int channel) {
         static_cast<float>(0.15 + 0.75 * std::clamp(distance - 1, 0.0, 1.0));
   }
   return colour;
+}
+
+// A colour for each channel, far from those before it.
+std::array<float, 3> colour_of(int channel) {
+  constexpr double golden = 0.61803398875;
+  return colour_of_hue(std::fmod(0.05 + golden * channel, 1.0));
+}
+
+// One channel of Target::turn; none where it is the same all over.
+Image channel_of_turn(const Image& turn, int channel) {
+  if (turn.empty()) return {};
+  Image values = extract_channels(turn, channel, 1);
+  const auto [low, high] = std::ranges::minmax(values.pixels);
+  return low < high ? values : Image();
+}
+
+// Turns as hues: the same after each full one.
+Image shown_angles(const Image& turn) {
+  const Image turns = channel_of_turn(turn, 0);
+  if (turns.empty()) return {};
+  Image result(turns.size(), 3);
+  for (std::size_t p = 0; p < turns.pixels.size(); ++p) {
+    const double t = static_cast<double>(turns.pixels[p]);
+    std::ranges::copy(colour_of_hue(t - std::floor(t)),
+                      result.pixels.begin() + static_cast<std::ptrdiff_t>(3 * p));
+  }
+  return result;
 }
 
 // Shares of channels as a mixture of their colours; other values from black to white.
@@ -98,6 +123,8 @@ void write_exemplar(const fs::path& folder, const Request& request,
   // Of weights that are the same everywhere there is no picture.
   write_or_remove(folder / "target_weights.png", shown_or_none(target.weights, {2, 1}));
   write_or_remove(folder / "target_mask.png", target.mask);
+  write_or_remove(folder / "target_angle.png", shown_angles(target.turn));
+  write_or_remove(folder / "target_scale.png", shown_or_none(channel_of_turn(target.turn, 1), {}));
 }
 
 std::vector<std::string> kept_files(const ExemplarEntry& exemplar) {
@@ -112,7 +139,8 @@ std::vector<std::string> kept_files(const ExemplarEntry& exemplar) {
 }
 
 std::vector<std::string> kept_directions(const ExemplarEntry& exemplar) {
-  std::vector<std::string> names{"target_guide", "target_weights", "target_mask"};
+  std::vector<std::string> names{"target_guide", "target_weights", "target_mask", "target_angle",
+                                 "target_scale"};
   const std::size_t pictures = 1 + exemplar.more.size();
   for (std::size_t i = 0; i < pictures; ++i)
     for (const char* what : {"_usable", "_guide"}) names.push_back(kept_stem(i) + what);

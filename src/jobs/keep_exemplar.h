@@ -11,12 +11,13 @@
 namespace gramloom {
 
 /// Writes what a folder keeps of an exemplar beside its results: its pictures and their maps, which
-/// parts of them may be used and their guides; and of the texture the guide, the weights, and what
-/// was to be filled. They are called "exemplar" + extension and "exemplar_"<map> + extension in
-/// `folder`; of further pictures "exemplar_picture2" and "exemplar_picture2_"<map>;
-/// "exemplar_usable.png" and "exemplar_guide.png" with the same numbers; "target_guide.png",
-/// "target_weights.png", "target_mask.png". Guides and weights are shown in colours, one for each
-/// label or picture. Throws Error.
+/// parts of them may be used and their guides; and of the texture the guide, the weights, what was
+/// to be filled, and how the exemplar was to be laid. They are called "exemplar" + extension and
+/// "exemplar_"<map> + extension in `folder`; of further pictures "exemplar_picture2" and
+/// "exemplar_picture2_"<map>; "exemplar_usable.png" and "exemplar_guide.png" with the same numbers;
+/// "target_guide.png", "target_weights.png", "target_mask.png", "target_angle.png",
+/// "target_scale.png". Guides and weights are shown in colours, one for each label or picture;
+/// angles as hues. Throws Error.
 void write_exemplar(const std::filesystem::path& folder, const Request& request,
                     const std::vector<ExemplarFile>& files);
 

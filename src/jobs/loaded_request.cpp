@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jobs/agree_on_alpha.h"
 #include "jobs/filling.h"
 #include "jobs/guides.h"
 #include "jobs/memory.h"
@@ -14,15 +15,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Exemplar exemplar_of(const ExemplarPicture& entry, PictureFiles picture, const std::string& place) {
+// 1 what of a picture may be used; empty: all.
+Image mask_of(const ExemplarPicture& entry, const PictureFiles& picture, const std::string& place) {
+  if (entry.mask.empty()) return {};
+  Image mask = read_mask(entry.mask, picture, "the mask", place);
+  if (std::ranges::count(mask.pixels, 1.0f) == 0)
+    throw ConfigError("{}: the mask {} is black everywhere: nothing of {} may be used", place,
+                      entry.mask.string(), picture.file.string());
+  return mask;
+}
+
+Exemplar exemplar_of(const ExemplarPicture& entry, PictureFiles picture, Image mask,
+                     const std::string& place) {
   Exemplar exemplar;
   exemplar.layers = layers_of(picture.files);
-  if (!entry.mask.empty()) {
-    exemplar.mask = read_mask(entry.mask, picture, "the mask", place);
-    if (std::ranges::count(exemplar.mask.pixels, 1.0f) == 0)
-      throw ConfigError("{}: the mask {} is black everywhere: nothing of {} may be used", place,
-                        entry.mask.string(), picture.file.string());
-  }
+  exemplar.mask = std::move(mask);
   if (!entry.guide.empty())
     exemplar.guide = without_alpha(read_sized(entry.guide, picture.images.front().size(),
                                               "the guide", picture.file.string(), place));
@@ -140,18 +147,23 @@ LoadedRequest load_request(const Config& config, std::optional<std::size_t> numb
   std::vector<ExemplarPicture> entries;
   if (!entry.is_filled) entries = pictures_of(entry);
   std::vector<PictureFiles> pictures;
-  for (const ExemplarPicture& picture : entries)
+  std::vector<Image> masks;
+  for (const ExemplarPicture& picture : entries) {
     pictures.push_back(read_picture(picture, entry.place));
+    masks.push_back(mask_of(picture, pictures.back(), entry.place));
+  }
   if (direction.fill)
     pictures.push_back(read_picture({direction.fill->image, direction.fill->maps, {}, {}},
                                     place_of(config, "fill")));
+  agree_on_alpha(pictures, masks, direction.fill.has_value(), entry.place);
   fit_together(pictures, entry.place);
   loaded.files = direction.fill ? pictures.back().files : pictures.front().files;
   for (const PictureFiles& picture : pictures)
     loaded.notes.insert(loaded.notes.end(), picture.notes.begin(), picture.notes.end());
 
   for (std::size_t i = 0; i < entries.size(); ++i)
-    loaded.exemplars.push_back(exemplar_of(entries[i], std::move(pictures[i]), entry.place));
+    loaded.exemplars.push_back(
+        exemplar_of(entries[i], std::move(pictures[i]), std::move(masks[i]), entry.place));
   if (direction.fill) {
     loaded.metadata = pictures.back().metadata;
     std::erase_if(loaded.metadata, [](const auto& text) {  // ours are of how it was made
@@ -165,6 +177,7 @@ LoadedRequest load_request(const Config& config, std::optional<std::size_t> numb
           {joined(std::move(pictures.back())), layers_of(loaded.files), std::move(filling.usable)});
     loaded.target.known = std::move(filling.known);
     loaded.target.mask = std::move(filling.mask);
+    loaded.target.blend = direction.fill->blend;
   }
   std::vector<fs::path> guides;
   for (const ExemplarPicture& picture : entries) guides.push_back(picture.guide);

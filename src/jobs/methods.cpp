@@ -3,6 +3,7 @@
 #include "classic/known_pixels.h"
 #include "core/variants.h"
 #include "jobs/unit_normals.h"
+#include "signal/blended_joins.h"
 #include "signal/turned.h"
 
 namespace gramloom {
@@ -85,6 +86,7 @@ Texture run_method(const Method& method, const Request& request, const Control& 
   const Request& asked = turned ? turned->request() : request;
   Texture texture =
       std::visit([&](const auto& params) { return synthesise(params, asked, control); }, method);
+  blend_joins(texture, asked);
   keep_normals_unit(texture, asked.exemplars);
   if (turned) turned->name_sources(texture.source);
   keep_known(texture.image, request.target);  // bit for bit, whatever a method computes with

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "io/field_values.h"
 #include "io/image_file.h"
 #include "jobs/map_file.h"
 #include "surface/preview.h"

@@ -182,6 +182,12 @@ void follow_direction(Config& config, toml::table& table) {
   if (direction.turn && config.coordinates)
     fail(key_region(table, "coordinates"),
          "[turn] makes pixels that are between the exemplar's: there are no coordinates of them");
+  if (direction.fill && direction.fill->blend > 0 && config.coordinates)
+    fail(key_region(table, "coordinates"),
+         "[fill] blends what is copied into what stays (blend = {}), and there are no coordinates "
+         "of "
+         "blends: allowed with coordinates is blend = 0",
+         direction.fill->blend);
   check_guides(config);
 }
 

@@ -95,6 +95,8 @@ void add_directing_pictures(const RunOnDisk& run, const std::string& name, Shown
   add("the texture's guide", "target_guide.png");
   add("the texture's weights", "target_weights.png");
   add("what is made anew", "target_mask.png");
+  add("how far it is turned", "target_angle.png");
+  add("how large it is", "target_scale.png");
 }
 
 // Adds a map to a view if that knows it and has none of its kind. The record says of normals where

@@ -19,7 +19,7 @@ class FillCommand : public Workspace {
       for (int x = 12; x < 20; ++x) *mask.at(x, y) = 1;
     write_image(folder_ / "hole.png", mask, {});
     write_text(folder_ / "f.toml",
-               "coordinates = true\n[fill]\nimage = 'e.png'\nmask = 'hole.png'\n"
+               "coordinates = true\n[fill]\nimage = 'e.png'\nmask = 'hole.png'\nblend = 0\n"
                "[[method]]\nname = 'patchmatch'\nkind = 'patchmatch'\n");
   }
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "jobs/every_method.h"
+#include "metrics/seams.h"
 
 namespace gramloom {
 namespace {
@@ -98,6 +99,27 @@ TYPED_TEST(Directed, KnownPixelsComeBackBitForBit) {
         ASSERT_GT(texture.image.pixels[i], -1) << "not made: " << i;
       }
   }
+}
+
+TYPED_TEST(Directed, JoinsOfAFillShowLessWhenTheyAreBlended) {
+  if (!this->can(Ability::fill) || !this->copies) GTEST_SKIP() << "copies nothing into a picture";
+  const Image picture = grain({72, 60}, 3);
+  const Image mask = holes(picture.size());
+  Request request = this->filling(picture, mask);
+  for (Exemplar& exemplar : request.exemplars)  // nothing fits: it is darker throughout
+    for (float& value : exemplar.image.pixels) value -= 0.1f;
+  const Texture copied = run_method(this->quick(), request, {});
+  request.target.blend = 4;
+  const Texture blended = run_method(this->quick(), request, {});
+  EXPECT_EQ(blended.source.pixels, copied.source.pixels);
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i)
+    if (mask.pixels[i / 3] == 0) {
+      ASSERT_EQ(blended.image.pixels[i], picture.pixels[i]) << "value " << i;
+    }
+  if (std::is_same_v<TypeParam, HistogramParams> || std::is_base_of_v<MarkovParams, TypeParam>)
+    EXPECT_EQ(blended.image, copied.image) << "pixels that are copied one by one have no steps";
+  else
+    EXPECT_LT(join_visibility(blended.image, mask), 0.9 * join_visibility(copied.image, mask));
 }
 
 TYPED_TEST(Directed, MaskedPixelsAreNeverUsed) {

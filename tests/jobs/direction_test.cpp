@@ -39,6 +39,9 @@ class DirectionOfConfig : public testing::Test {
     write("three.png", picture({40, 30}, 1, [](int x, int) {
             return 0.2f + 0.3f * static_cast<float>(x / 14);
           }));
+    Image clear(8, 8, 4, 1.0f);
+    clear.at(3, 0)[3] = 0.2f;
+    write("clear.png", clear);
     write("both.png", picture({40, 30}, 1, [](int x, int) { return x < 20 ? 0.8f : 0.2f; }));
   }
   ~DirectionOfConfig() override { fs::remove_all(folder_); }
@@ -109,9 +112,6 @@ TEST_F(DirectionOfConfig, AMaskOrAlphaSaysWhatMayBeUsed) {
   const std::string one = "[[exemplar]]\nname = 'e'\n";
   EXPECT_EQ(load(one + "image = 'e.png'\nmask = 'hole.png'\n").exemplars[0].mask.pixels[5], 1);
   EXPECT_EQ(load(one + "image = 'e.png'\nmask = 'hole.png'\n").exemplars[0].mask.pixels[15], 0);
-  Image clear(8, 8, 4, 1.0f);
-  clear.at(3, 0)[3] = 0.2f;
-  write("clear.png", clear);
   const Image mask = load(one + "image = 'clear.png'\nmask = 'alpha'\n").exemplars[0].mask;
   EXPECT_EQ(mask.pixels[2], 1);
   EXPECT_EQ(mask.pixels[3], 0);
@@ -132,6 +132,30 @@ TEST_F(DirectionOfConfig, AFilledPictureIsItsOwnExemplarWithoutTheHole) {
   EXPECT_EQ(*loaded.target.mask.at(31, 23), 0);
   EXPECT_EQ(*loaded.target.mask.at(32, 0), 1);
   EXPECT_EQ(*loaded.target.mask.at(20, 24), 1);
+}
+
+TEST_F(DirectionOfConfig, PicturesWithAndWithoutAlphaAreOneMaterial) {
+  const LoadedRequest both = load("[[exemplar]]\nname = 'e'\nimages = ['e.png', 'clear.png']\n");
+  ASSERT_EQ(both.exemplars[0].image.channels, 4);
+  EXPECT_EQ(both.exemplars[0].image.at(31, 23)[2], read_image(folder_ / "e.png").image.pixels[0]);
+  EXPECT_EQ(both.exemplars[0].image.at(31, 23)[3], 1);
+  EXPECT_EQ(both.exemplars[0].layers, both.exemplars[1].layers);
+  EXPECT_EQ(both.files[0].channels, 4);
+  EXPECT_EQ(both.files[0].encoding.channel_names.back(), "A");
+  EXPECT_THAT(both.notes, testing::ElementsAre("e.png: taken as opaque beside clear.png"));
+
+  // A picture that is filled keeps its channels.
+  const std::string mask = "[[exemplar]]\nname = 'c'\nmask = 'alpha'\nimage = 'clear.png'\n";
+  const LoadedRequest plain = load("[fill]\nimage = 'e.png'\nmask = 'hole.png'\n" + mask);
+  EXPECT_EQ(plain.exemplars[0].image.channels, 3);
+  EXPECT_EQ(plain.exemplars[0].mask.pixels[3], 0);
+  EXPECT_EQ(plain.target.known.channels, 3);
+  EXPECT_THAT(plain.notes, testing::ElementsAre("clear.png: used without its alpha, as e.png"));
+  const LoadedRequest clear = load(
+      "[fill]\nimage = 'clear.png'\nmask = 'alpha'\n[[exemplar]]\nname = 'e'\nimage = 'e.png'\n");
+  EXPECT_EQ(clear.exemplars[0].image.channels, 4);
+  EXPECT_EQ(clear.target.known.channels, 4);
+  EXPECT_EQ(clear.files[0].channels, 4);
 }
 
 TEST_F(DirectionOfConfig, SeamlessMakesABandAnewAndTiles) {
@@ -185,12 +209,14 @@ TEST_F(DirectionOfConfig, TurnsAndScalesAreReadFromPictures) {
 }
 
 TEST_F(DirectionOfConfig, SettingsNameWhatDirects) {
-  const Config config = parse(
-      "coordinates = true\n[fill]\nimage = 'e.png'\nmask = 'hole.png'\nseamless = 'x'\nband = 3\n");
+  const Config config =
+      parse("[fill]\nimage = 'e.png'\nmask = 'hole.png'\nseamless = 'x'\nband = 3\nblend = 2\n");
   FileHashes hashes;
   const Job job = make_plan(config).jobs.front().job;
   const Json before = job_settings(config, job, input_hashes(config, job, hashes));
   EXPECT_EQ(before.at("fill").at("band"), 3);
+  EXPECT_EQ(before.at("fill").at("blend"), 2);
+  EXPECT_EQ(load_request(config, 0).target.blend, 2);
   write("hole.png", Image(32, 24, 1, 1.0f));
   const Json after = job_settings(config, job, input_hashes(config, job, hashes));
   EXPECT_NE(before, after) << "another mask is another job";
@@ -264,6 +290,13 @@ TEST_F(DirectionOfConfig, MistakesAreOneLineThatNamesBothSides) {
       {"[turn]\nangle = 'two.png'\nscales = [1, 2]\n" + e, "'scales' without a picture"},
       {"coordinates = true\n[turn]\nangle = 'two.png'\n" + e, "no coordinates of them"},
       {"[fill]\nimage = 'e.png'\nmask = 'hole.png'\nband = 4\n", "'band' without 'seamless'"},
+      {"coordinates = true\n[fill]\nimage = 'e.png'\nmask = 'hole.png'\n",
+       "(blend = 4), and there are no coordinates of blends: allowed with coordinates is blend = "
+       "0"},
+      {"[fill]\nimage = 'e.png'\nmask = 'hole.png'\nblend = 65\n", "blend"},
+      {"[fill]\nimage = 'e.png'\nmask = 'hole.png'\n[[exemplar]]\nname = 'c'\nimage = "
+       "'clear.png'\n",
+       "clear.png is transparent at (3, 0), and e.png, which is filled, has no alpha"},
       {"pixel_type = 'half'\n[fill]\nimage = 'e.png'\nmask = 'hole.png'\n", "pixel type of its"},
       {"format = 'jpg'\n[fill]\nimage = 'e.png'\nmask = 'hole.png'\n", "a jpg does not keep"},
       {"[fill]\nimage = 'e.png'\nextend = 60000\n", "a side has at most 65536"},
