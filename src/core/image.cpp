@@ -32,11 +32,11 @@ ChannelRange channel_range(const Image& image) {
   const auto channels = static_cast<std::size_t>(image.channels);
   ChannelRange range{std::vector<float>(channels, std::numeric_limits<float>::infinity()),
                      std::vector<float>(channels, -std::numeric_limits<float>::infinity())};
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    const std::size_t c = i % channels;
-    range.low[c] = std::min(range.low[c], image.pixels[i]);
-    range.high[c] = std::max(range.high[c], image.pixels[i]);
-  }
+  for (std::size_t first = 0; first < image.pixels.size(); first += channels)
+    for (std::size_t c = 0; c < channels; ++c) {
+      range.low[c] = std::min(range.low[c], image.pixels[first + c]);
+      range.high[c] = std::max(range.high[c], image.pixels[first + c]);
+    }
   return range;
 }
 

@@ -201,19 +201,6 @@ std::vector<float> shifts_of(const std::vector<BandPixel>& pixels, const std::ve
   return shifts;
 }
 
-/// The range of all that a pixel may be.
-ChannelRange allowed_range(const Request& request) {
-  ChannelRange range = channel_range(request.target.known);
-  for (const Exemplar& exemplar : request.exemplars) {
-    const ChannelRange own = channel_range(exemplar.image);
-    for (std::size_t c = 0; c < range.low.size(); ++c) {
-      range.low[c] = std::min(range.low[c], own.low[c]);
-      range.high[c] = std::max(range.high[c], own.high[c]);
-    }
-  }
-  return range;
-}
-
 }  // namespace
 
 void blend_joins(Texture& texture, const Request& request) {
@@ -225,7 +212,7 @@ void blend_joins(Texture& texture, const Request& request) {
   if (!band.is_of_pieces()) return;
   const std::vector<float> pulls = band.pulls(channels);
   const std::vector<float> shifts = shifts_of(band.pixels(), pulls, channels.size(), target.blend);
-  const ChannelRange range = allowed_range(request);
+  const ChannelRange range = channel_range(texture.image);
   for (std::size_t i = 0; i < band.pixels().size(); ++i) {
     float* pixel = texture.image.at(band.pixels()[i].x, band.pixels()[i].y);
     for (std::size_t k = 0; k < channels.size(); ++k) {

@@ -16,8 +16,8 @@ namespace gramloom {
 /// done where most pixels at joins were copied alone, beside no neighbour of their source: such
 /// have no steps to keep.
 ///
-/// Normals and coverage stay copies. Values stay within those of the exemplars and the known
-/// picture. Nothing is done where there are no sources or nothing is known.
+/// Normals and coverage stay copies. Values stay within those that the texture had. Nothing is done
+/// where there are no sources or nothing is known.
 void blend_joins(Texture& texture, const Request& request);
 
 }  // namespace gramloom
