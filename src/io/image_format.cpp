@@ -1,6 +1,7 @@
 #include "io/image_format.h"
 
 #include <algorithm>
+#include <charconv>
 #include <limits>
 #include <set>
 
@@ -102,6 +103,24 @@ OIIO::TypeDesc oiio_type(PixelType type) {
   return OIIO::TypeDesc::FLOAT;
 }
 
+namespace {
+
+/// What other programs print and lay out by. Nothing where the metadata has none.
+void add_resolution(OIIO::ImageSpec& spec, const Metadata& metadata) {
+  for (const char* name : resolution_names)
+    if (const auto text = metadata.find(name); text != metadata.end()) {
+      float value = 0;
+      const char* const end = text->second.data() + text->second.size();
+      const auto [read, error] = std::from_chars(text->second.data(), end, value);
+      if (error != std::errc() || read != end || value <= 0) return;
+      spec.attribute(name, value);
+    }
+  if (const auto unit = metadata.find("ResolutionUnit"); unit != metadata.end())
+    spec.attribute("ResolutionUnit", unit->second == "inch" ? "in" : unit->second);
+}
+
+}  // namespace
+
 OIIO::ImageSpec make_spec(const Format& format, Size size, int channels, const Encoding& encoding,
                           const Metadata& metadata) {
   check_fits(format, size, channels);
@@ -121,9 +140,10 @@ OIIO::ImageSpec make_spec(const Format& format, Size size, int channels, const E
         "ICCProfile",
         OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(encoding.icc_profile.size())),
         encoding.icc_profile.data());
-  for (const char* name : {"Artist", "Copyright"})
+  for (const char* name : {"Artist", "Copyright", "DocumentName"})
     if (const auto text = metadata.find(name); text != metadata.end())
       spec.attribute(name, text->second);
+  add_resolution(spec, metadata);
   // An EXIF part in a TIFF needs to read what is already written, which memory here does not allow.
   spec.attribute("tiff:write_exif", 0);
   spec.attribute("DateTime", "");  // or OpenImageIO writes the time of day into TIFF and EXR

@@ -35,6 +35,10 @@ OIIO::TypeDesc oiio_type(PixelType type);
 OIIO::ImageSpec make_spec(const Format& format, Size size, int channels, const Encoding& encoding,
                           const Metadata& metadata);
 
+/// Attributes that are numbers, and texts among our metadata.
+inline constexpr std::array<const char*, 3> resolution_names{"XResolution", "YResolution",
+                                                             "PixelAspectRatio"};
+
 /// Rows of values as the file holds them. Of floats OpenImageIO would convert one row after the
 /// other, each with all of its threads, and wait.
 std::vector<std::byte> stored_values(const OIIO::ImageSpec& spec, const float* rows, int count);

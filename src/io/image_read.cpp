@@ -10,6 +10,7 @@
 #include "io/check_finite.h"
 #include "io/image_algorithms.h"
 #include "io/image_file.h"
+#include "io/image_format.h"
 #include "io/image_record.h"
 #include "io/pictures_module.h"
 #include "io/png_chunks.h"
@@ -182,9 +183,12 @@ void check_alpha(const OIIO::ImageInput& input, const Image& image) {
       throw Error("a transparent WebP would lose its colours on the way; convert it to PNG");
 }
 
-/// The texts of a file that isn't ours.
+/// The texts of a file that isn't ours, and its resolution as text.
 Metadata texts(const OIIO::ImageSpec& spec) {
   Metadata metadata;
+  for (const char* name : resolution_names)
+    if (const float value = spec.get_float_attribute(name); value > 0)
+      metadata[name] = fmt::format("{}", value);
   for (const auto& attribute : spec.extra_attribs)
     if (attribute.type() == OIIO::TypeDesc::STRING &&
         !attribute.name().string().starts_with("oiio:"))

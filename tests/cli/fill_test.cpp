@@ -59,6 +59,26 @@ TEST_F(FillCommand, KeepsBitsProfileAndMetadata) {
   EXPECT_EQ(after.image.pixels.front(), before.image.pixels.front());
 }
 
+TEST_F(FillCommand, KeepsTheResolution) {
+  const Image picture = read_image(folder_ / "e.png").image;
+  write_image(folder_ / "print.png", picture, {},
+              {{"XResolution", "150"}, {"YResolution", "75"}, {"ResolutionUnit", "in"}});
+  const Outcome outcome =
+      run({"fill", "print.png", "--mask", "hole.png", "--output", "whole.png", "--quiet"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const std::string bytes = file("whole.png");
+  const std::size_t at = bytes.find("pHYs");  // pixels a metre, two numbers of 32 bits
+  ASSERT_NE(at, std::string::npos);
+  const auto number = [&](std::size_t first) {
+    int value = 0;
+    for (std::size_t i = first; i < first + 4; ++i)
+      value = 256 * value + static_cast<unsigned char>(bytes.at(i));
+    return value;
+  };
+  EXPECT_NEAR(number(at + 4), 150 / 0.0254, 1);
+  EXPECT_NEAR(number(at + 8), 75 / 0.0254, 1);
+}
+
 TEST_F(FillCommand, CoordinatesArrangeTheSamePictureAgain) {
   ASSERT_EQ(run({"run", "f.toml", "--quiet"}).exit_code, 0);
   const std::string coordinates = "out/f/e/patchmatch/seed1_coordinates.tif";
