@@ -1,6 +1,7 @@
 #include "classic/pixel_quilted_start.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "classic/pixel_match.h"
 #include "signal/united.h"
@@ -11,6 +12,9 @@ namespace {
 constexpr int block = 8;  // pixels of the level
 constexpr int reach = 3;  // width of the ring around a block that is compared
 constexpr double tolerance = 0.2;
+/// In a fill what goes on must go on in phase: more is compared, and the best place is taken.
+constexpr int reach_of_fill = 12;
+constexpr float weight_far = 0.04f;  // beyond the usual ring: it decides where that fits alike
 
 /// How often blocks came from about each place.
 class Uses {
@@ -37,15 +41,17 @@ class Uses {
 /// The known pixels in a block and in the ring around it.
 std::vector<Known> surroundings(const Canvas& canvas, const std::vector<bool>& known,
                                 const Level& level, const Aim& aim, const Reference& reference,
-                                Point first) {
+                                Point first, int ring) {
   std::vector<Known> found;
-  for (int dy = -reach; dy < block + reach; ++dy)
-    for (int dx = -reach; dx < block + reach; ++dx) {
+  for (int dy = -ring; dy < block + ring; ++dy)
+    for (int dx = -ring; dx < block + ring; ++dx) {
       int x = first.x + dx, y = first.y + dy;
       if (!canvas.wrap(x, y) || !known[canvas.index(x, y)]) continue;
       const Point p = canvas.at(x, y);
+      const bool far = std::min(dx, dy) < -reach || std::max(dx, dy) >= block + reach;
+      if (far && (dx + dy) % 2 != 0) continue;  // half of them tell as much
       found.push_back(
-          {reference.offset(dx, dy), 1.0f,
+          {reference.offset(dx, dy), far ? weight_far : 1.0f,
            aim.is_made(canvas.index(x, y)) ? level.colours.at(p.x, p.y) : aim.colours.at(x, y)});
     }
   return found;
@@ -90,13 +96,73 @@ bool any_made(const Aim& aim, Point first) {
   return false;
 }
 
+/// The blocks to be laid: in scan order, or, of a fill, from the borders of holes inwards, as what
+/// is surrounded most is determined best.
+class BlockOrder {
+ public:
+  BlockOrder(const Canvas& canvas, const std::vector<bool>& known, const Aim& aim, int ring)
+      : canvas_(canvas), known_(known), fills_(!aim.made.empty()), ring_(ring) {
+    for (int top = 0; top < aim.size.height; top += block)
+      for (int left = 0; left < aim.size.width; left += block)
+        if (!fills_ || any_made(aim, {left, top}))
+          rest_.push_back({{left, top}, fills_ ? count_known({left, top}) : 0});
+  }
+
+  std::optional<Point> next() {
+    if (done_ == rest_.size()) return std::nullopt;
+    const auto first = rest_.begin() + static_cast<std::ptrdiff_t>(done_++);
+    if (fills_)
+      std::iter_swap(first, std::ranges::max_element(first, rest_.end(), {}, &Waiting::known));
+    return first->place;
+  }
+
+  /// Its pixels are known now.
+  void laid(Point place) {
+    if (!fills_) return;
+    for (auto waiting = rest_.begin() + static_cast<std::ptrdiff_t>(done_); waiting != rest_.end();
+         ++waiting)
+      if (is_near(waiting->place.x - place.x, canvas_.size.width, tiles_x(canvas_.tile)) &&
+          is_near(waiting->place.y - place.y, canvas_.size.height, tiles_y(canvas_.tile)))
+        waiting->known = count_known(waiting->place);
+  }
+
+ private:
+  struct Waiting {
+    Point place;
+    int known;  // pixels of the block and the ring around it
+  };
+
+  bool is_near(int distance, int side, bool wraps) const {
+    distance = std::abs(distance);
+    return std::min(distance, wraps ? side - distance : distance) < block + ring_;
+  }
+
+  int count_known(Point first) const {
+    int count = 0;
+    for (int dy = -ring_; dy < block + ring_; ++dy)
+      for (int dx = -ring_; dx < block + ring_; ++dx)
+        if (int x = first.x + dx, y = first.y + dy; canvas_.wrap(x, y))
+          count += known_[canvas_.index(x, y)] ? 1 : 0;
+    return count;
+  }
+
+  const Canvas& canvas_;
+  const std::vector<bool>& known_;
+  bool fills_;
+  int ring_;
+  std::vector<Waiting> rest_;
+  std::size_t done_ = 0;
+};
+
 }  // namespace
 
 Canvas quilted_start(const Level& level, const Aim& aim, Tile tile, double variety,
                      ExemplarQuota quota, int factor, Random random) {
   const Image& colours = level.colours;
   const Size size = aim.size;
-  const Reference reference(level, block + reach);
+  const bool fills = !aim.made.empty();
+  const int ring = fills ? reach_of_fill : reach;
+  const Reference reference(level, block + ring);
   // Places from which a whole block fits into the exemplar; where none does, it is cut off.
   const Size places{std::max(1, colours.width - (block - 1) * level.step),
                     std::max(1, colours.height - (block - 1) * level.step)};
@@ -108,41 +174,40 @@ Canvas quilted_start(const Level& level, const Aim& aim, Tile tile, double varie
   Uses uses(level);
   std::vector<float> errors;
 
-  for (int top = 0; top < size.height; top += block)
-    for (int left = 0; left < size.width; left += block) {
-      if (!aim.made.empty() && !any_made(aim, {left, top})) continue;
-      const auto about = surroundings(canvas, known, level, aim, reference, {left, top});
-      const auto everywhere = reference.errors(about);
-      // Of the guide as much a pixel as of the colours.
-      const float part =
-          (about.empty() ? 1.0f : static_cast<float>(about.size())) / (block * block);
-      const std::vector<float> costs = quota.costs();
-      errors.clear();
-      for (int y = 0; y < places.height; ++y)
-        for (int x = 0; x < places.width; ++x) {
-          const auto place = static_cast<std::size_t>(level.index({x, y}));
-          errors.push_back(everywhere[place] * (1 + static_cast<float>(variety) * uses[place]));
-          if (!usable.empty() && usable[errors.size() - 1] == 0)
-            errors.back() = out_of_reach;
-          else if (!quota.empty())
-            errors.back() +=
-                static_cast<float>(about.size()) * costs[quota.exemplar_at(x * factor)];
-          else if (!aim.guide.empty())
-            errors.back() += part * guide_error(level, aim, {left, top}, {x, y});
-        }
-      const int chosen = static_cast<int>(pick(errors, tolerance, random));
-      const Point from{chosen % places.width, chosen / places.width};
-      uses.add(from);
-      if (!quota.empty())
-        quota.add(quota.exemplar_at(from.x * factor), 1.0 * block * block / canvas.count());
-      for (int y = top; y < std::min(top + block, size.height); ++y)
-        for (int x = left; x < std::min(left + block, size.width); ++x) {
-          if (!aim.is_made(canvas.index(x, y))) continue;
-          canvas.at(x, y) = level.nearest_usable(
-              {from.x + (x - left) * level.step, from.y + (y - top) * level.step});
-          known[canvas.index(x, y)] = true;
-        }
-    }
+  BlockOrder order(canvas, known, aim, ring);
+  while (const std::optional<Point> next = order.next()) {
+    const auto [left, top] = *next;
+    const auto about = surroundings(canvas, known, level, aim, reference, {left, top}, ring);
+    const auto everywhere = reference.errors(about);
+    // Of the guide as much a pixel as of the colours.
+    const float part = (about.empty() ? 1.0f : static_cast<float>(about.size())) / (block * block);
+    const std::vector<float> costs = quota.costs();
+    errors.clear();
+    for (int y = 0; y < places.height; ++y)
+      for (int x = 0; x < places.width; ++x) {
+        const auto place = static_cast<std::size_t>(level.index({x, y}));
+        errors.push_back(everywhere[place] * (1 + static_cast<float>(variety) * uses[place]));
+        if (!usable.empty() && usable[errors.size() - 1] == 0)
+          errors.back() = out_of_reach;
+        else if (!quota.empty())
+          errors.back() += static_cast<float>(about.size()) * costs[quota.exemplar_at(x * factor)];
+        else if (!aim.guide.empty())
+          errors.back() += part * guide_error(level, aim, {left, top}, {x, y});
+      }
+    const int chosen = static_cast<int>(pick(errors, fills ? 0 : tolerance, random));
+    const Point from{chosen % places.width, chosen / places.width};
+    uses.add(from);
+    if (!quota.empty())
+      quota.add(quota.exemplar_at(from.x * factor), 1.0 * block * block / canvas.count());
+    for (int y = top; y < std::min(top + block, size.height); ++y)
+      for (int x = left; x < std::min(left + block, size.width); ++x) {
+        if (!aim.is_made(canvas.index(x, y))) continue;
+        canvas.at(x, y) = level.nearest_usable(
+            {from.x + (x - left) * level.step, from.y + (y - top) * level.step});
+        known[canvas.index(x, y)] = true;
+      }
+    order.laid({left, top});
+  }
   return canvas;
 }
 
