@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "classic/fill_windows.h"
+#include "signal/fill_windows.h"
 #include "classic/known_pixels.h"
 #include "classic/pixel_algorithms.h"
 #include "core/error.h"

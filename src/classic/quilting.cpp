@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "classic/fill_windows.h"
+#include "signal/fill_windows.h"
 #include "classic/quilt_labels.h"
 #include "classic/quilt_task.h"
 #include "core/threads.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/surroundings.h"
 #include "core/threads.h"
 
 namespace gramloom {
@@ -16,6 +17,8 @@ RequestSize size_of(const Request& request) {
   result.size = target.size;
   result.tile = target.tile;
   result.known = !target.known.empty() || !target.mask.empty();
+  if (!target.mask.empty() && target.tile == Tile::none)
+    result.around = with_surroundings(box_of(target.mask), target.size).size();
   if (!target.mask.empty())
     result.made = static_cast<double>(
                       std::ranges::count_if(target.mask.pixels, [](float v) { return v > 0.5f; })) /

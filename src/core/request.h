@@ -94,6 +94,8 @@ struct RequestSize {
   Tile tile = Tile::none;
   bool known = false;  // known pixels, or a mask of what is to be made
   double made = 1;     // which part of the target's pixels is made
+  Size around = {};  // of what is made and its surroundings (core/surroundings.h), if edges do not
+                     // meet and some is known; else empty
   bool guide = false;
   bool weights = false;  // of several exemplars
   bool turn = false;

@@ -22,6 +22,7 @@ constexpr double seconds_per_remembered = 3e-10;      // value of L-BFGS
 constexpr double evaluations_per_step = 1.1;          // of L-BFGS
 constexpr double seconds_per_pixel_of_fill = 7.5e-7;  // known or made, in a step of a layout
 constexpr double pictures_of_fill = 12;
+constexpr double whole_pictures = 2;      // beside those of a fill's window
 constexpr double directed_patches = 2.5;  // seconds, where each has its own place and goal
 constexpr double optimiser_values = 9;    // in memory, for each of the picture's
 constexpr double packed_bytes = 8e6;      // a thread: oneDNN's packed matrices, most with AVX2
@@ -100,10 +101,26 @@ void check_possible(const NeuralParams& params, const RequestSize& request) {
     read_weights(network, filter_shapes(network, channels), params.weights);
 }
 
+// What is left of a fill in its window. An exemplar of the picture's size is the picture.
+RequestSize of_window(RequestSize request) {
+  for (ExemplarSize& exemplar : request.exemplars)
+    if (exemplar.size == request.size) exemplar.size = request.around;
+  request.made *= area(request.size) / area(request.around);
+  request.size = request.around;
+  request.around = {};
+  return request;
+}
+
 }  // namespace
 
 Cost estimate(const NeuralParams& asked, const RequestSize& request) {
   check_request<NeuralParams>(request);
+  if (fills_window(asked, request)) {
+    Cost cost = estimate(asked, of_window(request));
+    cost.bytes += sizeof(float) * whole_pictures * request.exemplars.front().channels *
+                  (area(request.size) + area(joined_exemplars(request)));
+    return cost;
+  }
   const Size exemplar = smallest_exemplar(request);
   const int channels = request.exemplars.front().channels;
   const Target target{request.size, request.tile};

@@ -73,6 +73,11 @@ Size canvas_size(const NeuralParams& params, const Target& target) {
   return size;
 }
 
+bool fills_window(const NeuralParams& params, const RequestSize& request) {
+  return request.known && params.start.empty() && area(request.around) > 0 &&
+         area(request.around) <= most_of_window * area(request.size);
+}
+
 bool is_shared(const NeuralParams& params, Size level, int processes) {
   constexpr int least_rows = 64;  // of a process: more than others look at
   const int patch = *std::max_element(params.patch_sizes.begin(), params.patch_sizes.end());

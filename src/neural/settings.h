@@ -32,6 +32,11 @@ Size level_size(const NeuralParams& params, Size whole, int level);
 /// be cut off at the end. Pixels at an edge lie in few patches and stay rough. Not of a fill: of an
 /// exemplar that is the picture itself levels then have the same pixels.
 Size canvas_size(const NeuralParams& params, const Target& target);
+/// Whether a fill looks at its holes and what is around them alone, not at the whole picture: where
+/// that is less than most of it. A picture to start from is of the whole.
+bool fills_window(const NeuralParams& params, const RequestSize& request);
+/// Of the picture.
+inline constexpr double most_of_window = 0.7;
 /// Whether several processes share the picture of a level, each its rows. A small one each makes
 /// alone, and so the same: of the others a step compares a random part of the patches
 /// (loss/sliced.h), which is the same however it is shared.

@@ -29,8 +29,10 @@
 #include "neural/settings.h"
 #include "neural/settled_maps.h"
 #include "neural/shared_rows.h"
+#include "signal/fill_windows.h"
 #include "signal/histogram_match.h"
 #include "signal/layer_axes.h"
+#include "signal/resize.h"
 
 namespace gramloom::neural {
 
@@ -436,12 +438,8 @@ void settle(const Exemplar& exemplar, const Request& request, const Group& group
               {around, rows.begin - settled_margin, height}, rows, group, own);
 }
 
-}  // namespace
-
-Texture run_synthesis(const NeuralParams& asked, const Request& request, const Control& control,
-                      const Group& group) {
-  const c10::NoGradGuard no_gradients;
-  start_openmp();
+Texture synthesise_whole(const NeuralParams& asked, const Request& request, const Control& control,
+                         const Group& group) {
   const NeuralParams params =
       directed_settings(asked, size_of(request), has_one_mix(request.target));
   const United united(request);
@@ -455,6 +453,28 @@ Texture run_synthesis(const NeuralParams& asked, const Request& request, const C
   clamp_to(texture.image, channel_range(pixels));
   copy_known(request.target, texture.image);
   return texture;
+}
+
+}  // namespace
+
+Texture run_synthesis(const NeuralParams& asked, const Request& request, const Control& control,
+                      const Group& group) {
+  const c10::NoGradGuard no_gradients;
+  start_openmp();
+  std::optional<FillWindow> window;
+  if (group.alone() && fills_window(asked, size_of(request)))
+    window = window_about_holes(request, most_of_window);
+  if (!window) return synthesise_whole(asked, request, control, group);
+  return fill_by_windows(
+      request, {*window},
+      [&](const Request& part, const Control& own) {
+        Texture texture = synthesise_whole(asked, part, own, group);
+        // Stopped on a coarse level, it has that level's size.
+        if (texture.image.size() != window->size)
+          texture.image = resize(texture.image, window->size);
+        return texture;
+      },
+      control);
 }
 
 }  // namespace gramloom::neural

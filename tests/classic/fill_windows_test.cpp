@@ -1,4 +1,4 @@
-#include "classic/fill_windows.h"
+#include "signal/fill_windows.h"
 
 #include <gtest/gtest.h>
 

@@ -68,6 +68,9 @@ TEST_F(FewThreads, NoLibraryComplainsOfMoreThreadsThanCores) {
 }
 
 TEST_F(FewThreads, ThreadsThatTheSystemRefusesAreDoneWithout) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer needs the address space";
+#endif
   // Each thread has a stack of its own: 200 of 64 MB do not fit, nor 16 of LibTorch's, of OpenMP's
   // and of our own.
   for (const auto& [job, most] : {std::pair("e/q", 200), std::pair("e/n", 16)}) {
@@ -81,6 +84,9 @@ TEST_F(FewThreads, ThreadsThatTheSystemRefusesAreDoneWithout) {
 }
 
 TEST_F(FewThreads, TooLittleAddressSpaceFailsTheJobInOneLine) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer needs the address space";
+#endif
   const Outcome outcome =
       shell(folder_,
             "ulimit -v 1500000;"

@@ -127,6 +127,47 @@ TEST(NeuralDirected, FillsContinueWhatIsKnownBitForBit) {
   }
 }
 
+// 128 pixels on each side, or as much as the holes are large.
+TEST(NeuralDirected, AFillLooksAtWhatIsAroundItsHolesAlone) {
+  const Size size{420, 300};
+  const Image whole = stripes(size, 3);
+  Request request;
+  request.exemplars = {{whole}};
+  request.exemplars[0].mask = rectangle(size, 10, 20, 12, 14, 0, 1);
+  request.target = {.size = size, .known = whole, .mask = rectangle(size, 10, 20, 12, 14, 1, 0)};
+  const NeuralParams params = quick(Layout::noise);
+  const Image first = run(params, request);
+  const auto change = [&](int x, int y) {
+    for (Image* image : {&request.exemplars[0].image, &request.target.known})
+      image->at(x, y)[0] = 9;
+  };
+  change(22 + 128, 20);
+  change(10, 34 + 128);
+  const Image second = run(params, request);
+  int different = 0;
+  for (std::size_t i = 0; i < first.pixels.size(); ++i)
+    different += first.pixels[i] != second.pixels[i] ? 1 : 0;
+  EXPECT_EQ(different, 2);
+  EXPECT_EQ(second.at(150, 20)[0], 9);
+
+  // From another picture, that is seen whole.
+  request.exemplars[0] = {stripes({96, 64}, 3)};
+  const Image third = run(params, request);
+  EXPECT_EQ(third.size(), size);
+  EXPECT_EQ(third.at(150, 20)[0], 9);
+
+  // Stopped at once, it has its whole size nevertheless.
+  Control control;
+  control.progress = [](const Progress&) { return false; };
+  EXPECT_EQ(synthesise(params, request, control).image.size(), size);
+
+  const RequestSize asked = size_of(request);
+  EXPECT_EQ(asked.around, (Size{22 + 128, 34 + 128}));
+  RequestSize all = asked;
+  all.around = size;
+  EXPECT_LT(estimate(params, asked).bytes, 0.8 * estimate(params, all).bytes);
+}
+
 TEST(NeuralDirected, FillsGoOnAcrossEdgesThatWrap) {
   const Size size{64, 64};
   const Image whole = picture(size, 1, [](int x, int) { return x / 4 % 2 == 0 ? 0.1f : 0.9f; });

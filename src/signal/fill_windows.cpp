@@ -1,10 +1,12 @@
-#include "classic/fill_windows.h"
+#include "signal/fill_windows.h"
 
 #include <algorithm>
 #include <cstring>
+#include <mutex>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "core/surroundings.h"
 #include "core/threads.h"
 #include "signal/united.h"
 
@@ -14,8 +16,6 @@ namespace {
 
 /// Holes nearer than twice this to each other are filled together: they see each other.
 constexpr int context = 48;
-/// What is taken along on each side of a hole, or as much as the hole is large.
-constexpr int least_surroundings = 128;
 
 Image cropped(const Image& image, const FillWindow& window, Size whole) {
   if (image.size() != whole) return image;  // empty, or 1×1
@@ -25,8 +25,8 @@ Image cropped(const Image& image, const FillWindow& window, Size whole) {
   return part;
 }
 
-Request request_of(const Request& request, std::size_t same, const FillWindow& window,
-                   std::uint64_t number) {
+Request request_of(const Request& request, std::optional<std::size_t> same,
+                   const FillWindow& window, std::uint64_t number) {
   const Size whole = request.target.size;
   Request part{{}, {}, request.random.stream(number)};
   for (std::size_t e = 0; e < request.exemplars.size(); ++e) {
@@ -55,6 +55,28 @@ Request request_of(const Request& request, std::size_t same, const FillWindow& w
   for (float& m : there.pixels) m = m > 0.5f ? 0.0f : 1.0f;
   part.target.known = extended(part.target.known, there);
   return part;
+}
+
+void place(FillWindow& window, const Box& box) {
+  window.left = box.left;
+  window.top = box.top;
+  window.size = box.size();
+}
+
+/// Each pixel from its own place of that exemplar, if it is the same picture.
+SourceMap own_sources(Size size, std::optional<std::size_t> same) {
+  SourceMap sources(size);
+  if (!same) return sources;
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) *sources.at(x, y) = {x, y, static_cast<int>(*same)};
+  return sources;
+}
+
+/// Of a part that may not be used at all nothing can be made.
+bool can_be_used(const Exemplar& exemplar, const FillWindow& window, Size whole) {
+  const Image usable = cropped(exemplar.mask, window, whole);
+  const auto count = std::ranges::count_if(usable.pixels, [](float m) { return m > 0.5f; });
+  return usable.empty() || 4 * static_cast<std::size_t>(count) >= usable.pixels.size();
 }
 
 }  // namespace
@@ -91,10 +113,7 @@ std::vector<FillWindow> fill_windows(const Request& request, double most) {
   cv::Mat1i labels;
   const int count = cv::connectedComponents(wide, labels, 8, CV_32S);
   std::vector<FillWindow> windows(static_cast<std::size_t>(count - 1));
-  struct Box {
-    int left = 1 << 30, top = 1 << 30, right = 0, bottom = 0;
-  };
-  std::vector<Box> boxes(windows.size());
+  std::vector<Box> boxes(windows.size(), {size.width, size.height, 0, 0});
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
       if (made(y, x) == 0) continue;
@@ -106,47 +125,51 @@ std::vector<FillWindow> fill_windows(const Request& request, double most) {
       box = {std::min(box.left, x), std::min(box.top, y), std::max(box.right, x + 1),
              std::max(box.bottom, y + 1)};
     }
-  double area = 0;
+  double total = 0;
   for (std::size_t i = 0; i < windows.size(); ++i) {
-    const Box& box = boxes[i];
-    const int more = std::max({least_surroundings, box.right - box.left, box.bottom - box.top});
-    FillWindow& window = windows[i];
-    window.left = std::max(0, box.left - more);
-    window.top = std::max(0, box.top - more);
-    window.size = {std::min(size.width, box.right + more) - window.left,
-                   std::min(size.height, box.bottom + more) - window.top};
-    area += 1.0 * window.size.width * window.size.height;
-    // Of a part that may not be used at all nothing can be made.
-    const Image usable = cropped(request.exemplars[*same].mask, window, size);
-    const auto count_usable =
-        std::ranges::count_if(usable.pixels, [](float m) { return m > 0.5f; });
-    if (!usable.empty() && 4 * static_cast<std::size_t>(count_usable) < usable.pixels.size())
-      return {};
+    place(windows[i], with_surroundings(boxes[i], size));
+    total += area(windows[i].size);
+    if (!can_be_used(request.exemplars[*same], windows[i], size)) return {};
   }
-  if (area > most * size.width * size.height) return {};
+  if (total > most * area(size)) return {};
   return windows;
+}
+
+std::optional<FillWindow> window_about_holes(const Request& request, double most) {
+  const Target& target = request.target;
+  if (target.known.empty() || target.mask.empty() || target.tile != Tile::none) return std::nullopt;
+  FillWindow window;
+  place(window, with_surroundings(box_of(target.mask), target.size));
+  if (area(window.size) > most * area(target.size)) return std::nullopt;
+  const auto same = same_picture(request);
+  if (same && !can_be_used(request.exemplars[*same], window, target.size)) return std::nullopt;
+  for (std::size_t i = 0; i < target.mask.pixels.size(); ++i)
+    if (target.mask.pixels[i] > 0.5f) window.made.push_back(i);
+  return window;
 }
 
 Texture fill_by_windows(const Request& request, const std::vector<FillWindow>& windows,
                         const std::function<Texture(const Request&, const Control&)>& fill,
                         const Control& control) {
-  const std::size_t same = *same_picture(request);
+  const auto same = same_picture(request);
   const Size size = request.target.size;
-  Texture whole{request.target.known, {}, SourceMap(size)};
+  Texture whole{request.target.known, {}, {}};
   const auto channels = static_cast<std::size_t>(whole.image.channels);
-  for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < size.width; ++x) *whole.source.at(x, y) = {x, y, static_cast<int>(same)};
+  std::once_flag copies;
   const auto fill_one = [&](std::size_t w, const Control& own) {
     const FillWindow& window = windows[w];
     const Texture part = fill(request_of(request, same, window, w), own);
+    if (!part.source.empty())
+      std::call_once(copies, [&] { whole.source = own_sources(size, same); });
     for (const std::size_t i : window.made) {
       const int x = static_cast<int>(i) % size.width, y = static_cast<int>(i) / size.width;
       std::copy_n(part.image.at(x - window.left, y - window.top), channels,
                   whole.image.pixels.begin() + static_cast<std::ptrdiff_t>(i * channels));
+      if (part.source.empty()) continue;
       Source from = *part.source.at(x - window.left, y - window.top);
       if (from.exemplar == same)
         from = {static_cast<int>(from.x) + window.left, static_cast<int>(from.y) + window.top,
-                static_cast<int>(same)};
+                static_cast<int>(*same)};
       whole.source.pixels[i] = from;
     }
   };

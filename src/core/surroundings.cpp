@@ -1,0 +1,30 @@
+#include "core/surroundings.h"
+
+#include <algorithm>
+
+namespace gramloom {
+
+Box box_of(const Image& mask) {
+  Box box{mask.width, mask.height, 0, 0};
+  const auto is_made = [](float m) { return m > 0.5f; };
+  for (int y = 0; y < mask.height; ++y) {
+    const float *begin = mask.at(0, y), *end = begin + mask.width;
+    const float* first = std::find_if(begin, end, is_made);
+    if (first == end) continue;
+    const float* last = end;
+    while (!is_made(*(last - 1))) --last;
+    box = {std::min(box.left, static_cast<int>(first - begin)), std::min(box.top, y),
+           std::max(box.right, static_cast<int>(last - begin)), y + 1};
+  }
+  return box.bottom > 0 ? box : Box{};
+}
+
+Box with_surroundings(const Box& holes, Size picture) {
+  constexpr int least = 128;
+  const int more = std::max({least, holes.right - holes.left, holes.bottom - holes.top});
+  return {std::max(0, holes.left - more), std::max(0, holes.top - more),
+          std::min(picture.width, holes.right + more),
+          std::min(picture.height, holes.bottom + more)};
+}
+
+}  // namespace gramloom

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "core/image.h"
+
+namespace gramloom {
+
+/// Pixels [left, right) × [top, bottom).
+struct Box {
+  int left = 0, top = 0, right = 0, bottom = 0;
+
+  Size size() const { return {right - left, bottom - top}; }
+  friend bool operator==(const Box&, const Box&) = default;
+};
+
+/// About all pixels of a mask that are 1; empty where there are none.
+Box box_of(const Image& mask);
+
+/// A box of holes with what a fill looks at around them: on each side 128 pixels, or as much as the
+/// box is large, as far as the picture goes.
+Box with_surroundings(const Box& holes, Size picture);
+
+}  // namespace gramloom
