@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "signal/fill_windows.h"
 #include "classic/known_pixels.h"
 #include "classic/pixel_algorithms.h"
 #include "core/error.h"
+#include "signal/fill_windows.h"
 #include "signal/share_labels.h"
 #include "signal/united.h"
 
@@ -106,6 +106,9 @@ Cost estimate(const PixelParams& params, const RequestSize& request) {
     cost.work.shared = lists + 3.5e-7 * trials * candidates * made;
   else
     cost.work.shared = lists + 6e-8 * window * candidates * made;
+  // The first blocks of holes, each compared with all places of its window.
+  if (request.known && params.algorithm == PixelAlgorithm::lefebvre_hoppe)
+    cost.work.shared += made / 64 * std::min(from, 1e5) * compared * 1.8e-8;
   return cost;
 }
 

@@ -1,6 +1,7 @@
 #include "classic/pixel_match.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/simd.h"
 #include "core/threads.h"
@@ -17,6 +18,25 @@ GRAMLOOM_SIMD void add_errors(const float* values, float wanted, float weight, i
                               float* errors) {
   for (int i = 0; i < count; ++i)
     errors[i] += weight * ((values[i] - wanted) * (values[i] - wanted));
+}
+
+/// The same of samples that may be used, and how much these count.
+GRAMLOOM_SIMD void add_usable_errors(const float* values, const float* usable, float wanted,
+                                     float weight, int count, float* errors) {
+  for (int i = 0; i < count; ++i)
+    errors[i] += weight * usable[i] * ((values[i] - wanted) * (values[i] - wanted));
+}
+GRAMLOOM_SIMD void add_weights(const float* usable, float weight, int count, float* weights) {
+  for (int i = 0; i < count; ++i) weights[i] += weight * usable[i];
+}
+
+Image usable_of(const Level& level, int border) {
+  const Size size = level.colours.size();
+  Image usable(size.width + 2 * border, size.height + 2 * border, 1);
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x)
+      *usable.at(x + border, y + border) = level.may_use(level.index({x, y})) ? 1.0f : 0.0f;
+  return usable;
 }
 
 /// The channels of an image, each as an image of its own with a border.
@@ -37,7 +57,8 @@ Reference::Reference(const Level& level, int reach)
     : size_(level.colours.size()),
       step_(level.step),
       border_(reach * level.step),
-      planes_(planes_of(level.colours, border_)) {}
+      planes_(planes_of(level.colours, border_)),
+      usable_(usable_of(level, border_)) {}
 
 std::ptrdiff_t Reference::offset(int dx, int dy) const {
   return (static_cast<std::ptrdiff_t>(dy) * planes_.front().width + dx) * step_;
@@ -69,6 +90,34 @@ std::vector<float> Reference::errors(std::span<const Known> neighbourhood) const
                      known.colour[c], known.weight, size_.width,
                      errors.data() + static_cast<std::size_t>(y) * width);
   });
+  return errors;
+}
+
+std::vector<float> Reference::far_errors(std::span<const Known> neighbourhood) const {
+  const auto width = static_cast<std::size_t>(size_.width);
+  std::vector<float> errors(width * static_cast<std::size_t>(size_.height), 0.0f);
+  std::vector<float> weights(errors.size(), 0.0f);
+  parallel_for(size_.height, 4, [&](std::int64_t begin, std::int64_t end) {
+    for (auto y = begin; y < end; ++y)
+      for (const Known& known : neighbourhood) {
+        const auto at = [&](const Image& plane) {
+          return plane.at(border_, border_ + static_cast<int>(y)) + known.offset;
+        };
+        float* of_row = errors.data() + static_cast<std::size_t>(y) * width;
+        for (std::size_t c = 0; c < planes_.size(); ++c)
+          add_usable_errors(at(planes_[c]), at(usable_), known.colour[c], known.weight, size_.width,
+                            of_row);
+        add_weights(at(usable_), known.weight, size_.width,
+                    weights.data() + static_cast<std::size_t>(y) * width);
+      }
+  });
+  const double counted = std::accumulate(weights.begin(), weights.end(), 0.0);
+  if (counted == 0) return errors;
+  const auto mean =
+      static_cast<float>(std::accumulate(errors.begin(), errors.end(), 0.0) / counted);
+  float all = 0;
+  for (const Known& known : neighbourhood) all += known.weight;
+  for (std::size_t i = 0; i < errors.size(); ++i) errors[i] += mean * (all - weights[i]);
   return errors;
 }
 

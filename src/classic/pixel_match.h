@@ -28,6 +28,10 @@ class Reference {
   /// Of the pixel (dx, dy) pixels away, for Known.
   std::ptrdiff_t offset(int dx, int dy) const;
 
+  /// What lies farther away and only decides between places that fit alike: the same sum, but of
+  /// samples that may not be used, or lie beyond the exemplar, it takes the mean of all others.
+  std::vector<float> far_errors(std::span<const Known> neighbourhood) const;
+
   /// Σ weight · |colour − exemplar's colour|² about sample p.
   float error(std::span<const Known> neighbourhood, Point p) const;
   /// The same for every sample of the level, on all threads.
@@ -38,6 +42,7 @@ class Reference {
   int step_;
   int border_;
   std::vector<Image> planes_;  // one channel each, with a border
+  Image usable_;               // likewise: 1 or 0
 };
 
 /// The error of a sample that may not be used: above all others.

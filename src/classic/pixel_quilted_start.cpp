@@ -1,6 +1,7 @@
 #include "classic/pixel_quilted_start.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 #include "classic/pixel_match.h"
@@ -14,7 +15,7 @@ constexpr int reach = 3;  // width of the ring around a block that is compared
 constexpr double tolerance = 0.2;
 /// In a fill what goes on must go on in phase: more is compared, and the best place is taken.
 constexpr int reach_of_fill = 12;
-constexpr float weight_far = 0.04f;  // beyond the usual ring: it decides where that fits alike
+constexpr float weight_far = 0.04f;  // of what is beyond the usual ring
 
 /// How often blocks came from about each place.
 class Uses {
@@ -38,21 +39,25 @@ class Uses {
   std::vector<float> counts_;
 };
 
-/// The known pixels in a block and in the ring around it.
-std::vector<Known> surroundings(const Canvas& canvas, const std::vector<bool>& known,
-                                const Level& level, const Aim& aim, const Reference& reference,
-                                Point first, int ring) {
-  std::vector<Known> found;
+/// The known pixels in a block and in the ring around it; and, of half of those beyond it, as many
+/// as lie within `ring`.
+struct Surroundings {
+  std::vector<Known> near, far;
+};
+Surroundings surroundings(const Canvas& canvas, const std::vector<bool>& known, const Level& level,
+                          const Aim& aim, const Reference& reference, Point first, int ring) {
+  Surroundings found;
   for (int dy = -ring; dy < block + ring; ++dy)
     for (int dx = -ring; dx < block + ring; ++dx) {
       int x = first.x + dx, y = first.y + dy;
       if (!canvas.wrap(x, y) || !known[canvas.index(x, y)]) continue;
-      const Point p = canvas.at(x, y);
       const bool far = std::min(dx, dy) < -reach || std::max(dx, dy) >= block + reach;
-      if (far && (dx + dy) % 2 != 0) continue;  // half of them tell as much
-      found.push_back(
-          {reference.offset(dx, dy), far ? weight_far : 1.0f,
-           aim.is_made(canvas.index(x, y)) ? level.colours.at(p.x, p.y) : aim.colours.at(x, y)});
+      if (far && (dx + dy) % 2 != 0) continue;
+      const Point p = canvas.at(x, y);
+      (far ? found.far : found.near)
+          .push_back({reference.offset(dx, dy), far ? weight_far : 1.0f,
+                      aim.is_made(canvas.index(x, y)) ? level.colours.at(p.x, p.y)
+                                                      : aim.colours.at(x, y)});
     }
   return found;
 }
@@ -177,8 +182,11 @@ Canvas quilted_start(const Level& level, const Aim& aim, Tile tile, double varie
   BlockOrder order(canvas, known, aim, ring);
   while (const std::optional<Point> next = order.next()) {
     const auto [left, top] = *next;
-    const auto about = surroundings(canvas, known, level, aim, reference, {left, top}, ring);
-    const auto everywhere = reference.errors(about);
+    const auto [about, far] = surroundings(canvas, known, level, aim, reference, {left, top}, ring);
+    std::vector<float> everywhere = reference.errors(about);
+    if (!far.empty())
+      std::ranges::transform(everywhere, reference.far_errors(far), everywhere.begin(),
+                             std::plus<float>());
     // Of the guide as much a pixel as of the colours.
     const float part = (about.empty() ? 1.0f : static_cast<float>(about.size())) / (block * block);
     const std::vector<float> costs = quota.costs();

@@ -4,10 +4,10 @@
 #include <optional>
 #include <utility>
 
-#include "signal/fill_windows.h"
 #include "classic/quilt_labels.h"
 #include "classic/quilt_task.h"
 #include "core/threads.h"
+#include "signal/fill_windows.h"
 #include "signal/united.h"
 
 namespace gramloom {

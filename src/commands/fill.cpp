@@ -72,7 +72,7 @@ Command add_fill(CLI::App& program) {
       ->add_option("--blend", work.blend,
                    "within which colours that are copied go over into what stays; 4; 0: they stay "
                    "copies")
-      ->check(CLI::Range(0, 64))
+      ->check(CLI::Range(0, 16))
       ->type_name("PIXELS");
   add_repeated(*command, "--from", arguments->from,
                "fill with what this picture shows, not the picture itself; can be repeated",

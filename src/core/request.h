@@ -36,7 +36,8 @@ struct Layer {
 
 /// A picture of a texture and maps of the same surface, joined to one image, so that a method makes
 /// them together and they stay registered.
-/// Methods that copy whole pixels (Ability::source) keep the values of layers of every kind. Others
+/// Methods that copy whole pixels (Ability::source) keep the values of layers of every kind, unless
+/// they are to go over into known ones (Target::blend). Others
 /// mix no layers (see signal/layer_axes.h), but a normal whose channels they mix is no longer of
 /// unit length: jobs make it so again (jobs/unit_normals.h).
 struct Exemplar {
@@ -85,8 +86,9 @@ struct Request {
 struct ExemplarSize {
   Size size;
   int channels = 0;
-  bool mask = false;   // whether there is one
-  bool guide = false;  // likewise
+  bool mask = false;    // whether there is one
+  bool guide = false;   // likewise
+  bool filled = false;  // whether it is the picture that is filled
 };
 struct RequestSize {
   std::vector<ExemplarSize> exemplars = {};
@@ -94,8 +96,9 @@ struct RequestSize {
   Tile tile = Tile::none;
   bool known = false;  // known pixels, or a mask of what is to be made
   double made = 1;     // which part of the target's pixels is made
-  Size around = {};  // of what is made and its surroundings (core/surroundings.h), if edges do not
-                     // meet and some is known; else empty
+  /// Of what is made and its surroundings (core/surroundings.h): all that a fill need look at;
+  /// empty where edges meet, or too little there may be used.
+  Size around = {};
   bool guide = false;
   bool weights = false;  // of several exemplars
   bool turn = false;
@@ -149,7 +152,8 @@ struct Texture {
   /// the image.
   std::map<std::string, Image> maps = {};
   /// Of methods that copy (Ability::source): where each pixel came from. arranged() makes the image
-  /// of it again, exactly but for pixels that the method says it blends.
+  /// of it again, exactly but for pixels that the method says it blends, and those that are blended
+  /// into known ones (Target::blend).
   SourceMap source = {};
 };
 

@@ -27,4 +27,13 @@ Box with_surroundings(const Box& holes, Size picture) {
           std::min(picture.height, holes.bottom + more)};
 }
 
+bool has_enough(const Image& mask, const Box& box) {
+  if (mask.empty()) return true;
+  std::ptrdiff_t usable = 0;
+  for (int y = box.top; y < box.bottom; ++y)
+    usable += std::count_if(mask.at(box.left, y), mask.at(box.left, y) + (box.right - box.left),
+                            [](float m) { return m > 0.5f; });
+  return 4.0 * static_cast<double>(usable) >= area(box.size());
+}
+
 }  // namespace gramloom

@@ -19,4 +19,8 @@ Box box_of(const Image& mask);
 /// box is large, as far as the picture goes.
 Box with_surroundings(const Box& holes, Size picture);
 
+/// Whether at least a quarter of a box may be used, by such a mask (empty: all may): of less a fill
+/// cannot be made.
+bool has_enough(const Image& mask, const Box& box);
+
 }  // namespace gramloom

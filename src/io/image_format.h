@@ -35,9 +35,9 @@ OIIO::TypeDesc oiio_type(PixelType type);
 OIIO::ImageSpec make_spec(const Format& format, Size size, int channels, const Encoding& encoding,
                           const Metadata& metadata);
 
-/// Attributes that are numbers, and texts among our metadata.
-inline constexpr std::array<const char*, 3> resolution_names{"XResolution", "YResolution",
-                                                             "PixelAspectRatio"};
+/// Attributes that are numbers, and texts among our metadata. Not the ratio of the two, which
+/// OpenImageIO's readers do not agree on.
+inline constexpr std::array<const char*, 2> resolution_names{"XResolution", "YResolution"};
 
 /// Rows of values as the file holds them. Of floats OpenImageIO would convert one row after the
 /// other, each with all of its threads, and wait.

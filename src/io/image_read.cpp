@@ -183,17 +183,26 @@ void check_alpha(const OIIO::ImageInput& input, const Image& image) {
       throw Error("a transparent WebP would lose its colours on the way; convert it to PNG");
 }
 
-/// The texts of a file that isn't ours, and its resolution as text.
+/// The texts of a file that isn't ours.
 Metadata texts(const OIIO::ImageSpec& spec) {
   Metadata metadata;
-  for (const char* name : resolution_names)
-    if (const float value = spec.get_float_attribute(name); value > 0)
-      metadata[name] = fmt::format("{}", value);
   for (const auto& attribute : spec.extra_attribs)
     if (attribute.type() == OIIO::TypeDesc::STRING &&
         !attribute.name().string().starts_with("oiio:"))
       metadata[attribute.name().string()] = attribute.get_string();
   return metadata;
+}
+
+/// The resolution of the file as texts, of a picture that is turned as `orientation` says.
+void take_resolution(const OIIO::ImageSpec& spec, int orientation, Metadata& metadata) {
+  const bool lies = orientation >= 5;  // rows of the file are columns of the picture
+  for (std::size_t i = 0; i < resolution_names.size(); ++i) {
+    const char* of_file = resolution_names[lies ? resolution_names.size() - 1 - i : i];
+    if (const float value = spec.get_float_attribute(of_file); value > 0)
+      metadata[resolution_names[i]] = fmt::format("{}", value);
+  }
+  if (const std::string unit = spec.get_string_attribute("ResolutionUnit"); !unit.empty())
+    metadata["ResolutionUnit"] = unit;
 }
 
 std::string icc_profile(const OIIO::ImageSpec& spec) {
@@ -243,7 +252,9 @@ ImageFile read_open(OIIO::ImageInput& input) {
   } else {
     file.metadata = texts(spec);
   }
-  file.image = pictures::turn(file.image, spec.get_int_attribute("Orientation", 1));
+  const int orientation = spec.get_int_attribute("Orientation", 1);
+  take_resolution(spec, orientation, file.metadata);
+  file.image = pictures::turn(file.image, orientation);
   return file;
 }
 

@@ -35,10 +35,10 @@ void check_opaque(const PictureFiles& picture, const Image& mask, const PictureF
   const Image& image = picture.images.front();
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
-      if (image.at(x, y)[image.channels - 1] < 1 && (mask.empty() || *mask.at(x, y) > 0.5f))
+      if (image.at(x, y)[image.channels - 1] <= 0.5f && (mask.empty() || *mask.at(x, y) > 0.5f))
         throw ConfigError(
-            "{}: {} is transparent at ({}, {}), and {}, which is filled, has no alpha: say mask = "
-            "\"alpha\" of the exemplar to use what is opaque",
+            "{}: {} is transparent at ({}, {}), and {}, which is filled, has no alpha: an exemplar "
+            "of a config with mask = \"alpha\" is used where it is opaque",
             place, picture.file.string(), x, y, filled.file.string());
 }
 
@@ -59,7 +59,9 @@ void agree_on_alpha(std::vector<PictureFiles>& pictures, const std::vector<Image
   const PictureFiles& filled = pictures.back();
   if (fills && !has_alpha(filled)) {
     for (std::size_t i = 0; i + 1 < pictures.size(); ++i) {
-      if (!has_alpha(pictures[i])) continue;
+      if (!has_alpha(pictures[i]) ||
+          pictures[i].files.front().channels != filled.files.front().channels + 1)
+        continue;
       check_opaque(pictures[i], masks[i], filled, place);
       drop_alpha(pictures[i]);
       add_note(pictures[i], "used without its alpha, as", filled);
@@ -67,7 +69,9 @@ void agree_on_alpha(std::vector<PictureFiles>& pictures, const std::vector<Image
     return;
   }
   for (PictureFiles& picture : pictures) {
-    if (has_alpha(picture)) continue;
+    // Others differ in their colours, too.
+    const int colours = with->files.front().channels - 1;
+    if (has_alpha(picture) || picture.files.front().channels != colours) continue;
     make_opaque(picture);
     add_note(picture, "taken as opaque beside", *with);
   }

@@ -123,10 +123,11 @@ struct FillEntry {
               {0, longest_side}},
         Field{"blend",
               &F::blend,
-              "within which colours and heights that are copied go over into what stays; 0: they "
+              "within which colours and heights that are copied (by quilting, patchmatch or pixel) "
+              "go over into what stays; 0: they "
               "stay copies",
               "pixels",
-              {0, 64}},
+              {0, 16}},
     };
   }
 };

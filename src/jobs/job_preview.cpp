@@ -47,7 +47,7 @@ PreviewMaterial flat_material(const Config& config, const ShownTexture& shown) {
                              : name == config.surface.height ? "height"
                                                              : material_map(name);
     if (what.empty() || material.maps.contains(what)) continue;
-    material.maps[what] = what == "normal" ? map : one_channel(map, 3.0f / 255, what);
+    material.maps[what] = what == "normal" ? map : one_channel(map, what);
     if (green != normals.end()) material.green = green->second;
   }
   return material;
@@ -112,7 +112,7 @@ void check_previews(const Config& config) {
   }
 }
 
-Cost estimate_preview(const PreviewEntry& preview, Size result) {
+Cost estimate_entry(const PreviewEntry& preview, Size result) {
   const PreviewParams& params = preview;
   Cost cost = estimate_preview(params, result);
   if (preview.second.empty() || preview.mapping == Mapping::solid) return cost;

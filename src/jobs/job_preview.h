@@ -22,7 +22,7 @@ Named<std::filesystem::path> preview_files(const PreviewEntry& preview);
 void check_previews(const Config& config);
 
 /// What a preview of a result of this size takes, with reading its second material.
-Cost estimate_preview(const PreviewEntry& preview, Size result);
+Cost estimate_entry(const PreviewEntry& preview, Size result);
 
 /// The hashes of its files.
 Named<std::string> preview_hashes(const PreviewEntry& preview, FileHashes& hashes);

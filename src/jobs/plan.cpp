@@ -111,7 +111,7 @@ Cost cost_of_finishing(const Config& config, const ExemplarFacts& facts, const J
   if (makes_maps(config, job))
     cost = one_after_the_other(cost, estimate_maps(config.surface, config.size, config.tile));
   for (const PreviewEntry* preview : previews_of(config, job))
-    cost = one_after_the_other(cost, estimate_preview(*preview, config.size));
+    cost = one_after_the_other(cost, estimate_entry(*preview, config.size));
   return cost;
 }
 

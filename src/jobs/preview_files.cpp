@@ -79,8 +79,7 @@ void read_map(const std::string& name, const fs::path& file, PreviewMaterial& ma
   try {
     ImageFile map = read_image(file);
     if (name == "normal") material.green = green_of_map(name, {file, {}, {}}, map.metadata);
-    material.maps[name] =
-        name == "normal" ? std::move(map.image) : one_channel(map.image, 3.0f / 255, name);
+    material.maps[name] = name == "normal" ? std::move(map.image) : one_channel(map.image, name);
   } catch (const Error& error) {
     const std::string what = error.what();
     throw Error("{}{}", what.starts_with(file.string()) ? "" : file.string() + ": ", what);

@@ -185,8 +185,7 @@ void follow_direction(Config& config, toml::table& table) {
   if (direction.fill && direction.fill->blend > 0 && config.coordinates)
     fail(key_region(table, "coordinates"),
          "[fill] blends what is copied into what stays (blend = {}), and there are no coordinates "
-         "of "
-         "blends: allowed with coordinates is blend = 0",
+         "of blends: allowed with coordinates is blend = 0",
          direction.fill->blend);
   check_guides(config);
 }

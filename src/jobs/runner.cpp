@@ -52,9 +52,11 @@ Output prepare_output(const Config& config, const Plan& plan, const RunOptions& 
     std::vector<InputFile> inputs = input_files(config);
     inputs.insert(inputs.end(), options.inputs.begin(), options.inputs.end());
     check_output(config, plan, output, inputs);
-    if (alone)
+    if (alone) {
       for (const auto* stem : {"run", "scores", "index", "baseline"})
         remove_stale_temporaries(output, stem);
+      remove_stale_views(output);
+    }
     auto log = std::make_unique<RunLog>(config, plan, options, alone);
     if (options.shard && alone && !lock->share()) throw Error("another run is writing there");
     return {std::move(lock), std::move(log)};

@@ -101,10 +101,10 @@ void check_possible(const NeuralParams& params, const RequestSize& request) {
     read_weights(network, filter_shapes(network, channels), params.weights);
 }
 
-// What is left of a fill in its window. An exemplar of the picture's size is the picture.
+// What is left of a fill in its window.
 RequestSize of_window(RequestSize request) {
   for (ExemplarSize& exemplar : request.exemplars)
-    if (exemplar.size == request.size) exemplar.size = request.around;
+    if (exemplar.filled) exemplar.size = request.around;
   request.made *= area(request.size) / area(request.around);
   request.size = request.around;
   request.around = {};

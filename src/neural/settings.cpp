@@ -74,7 +74,7 @@ Size canvas_size(const NeuralParams& params, const Target& target) {
 }
 
 bool fills_window(const NeuralParams& params, const RequestSize& request) {
-  return request.known && params.start.empty() && area(request.around) > 0 &&
+  return request.known && params.start.empty() && params.levels == 0 && area(request.around) > 0 &&
          area(request.around) <= most_of_window * area(request.size);
 }
 

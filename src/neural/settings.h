@@ -33,7 +33,8 @@ Size level_size(const NeuralParams& params, Size whole, int level);
 /// exemplar that is the picture itself levels then have the same pixels.
 Size canvas_size(const NeuralParams& params, const Target& target);
 /// Whether a fill looks at its holes and what is around them alone, not at the whole picture: where
-/// that is less than most of it. A picture to start from is of the whole.
+/// that is less than most of it. A picture to start from is of the whole, and so many levels as are
+/// asked for may need it.
 bool fills_window(const NeuralParams& params, const RequestSize& request);
 /// Of the picture.
 inline constexpr double most_of_window = 0.7;

@@ -438,10 +438,8 @@ void settle(const Exemplar& exemplar, const Request& request, const Group& group
               {around, rows.begin - settled_margin, height}, rows, group, own);
 }
 
-Texture synthesise_whole(const NeuralParams& asked, const Request& request, const Control& control,
+Texture synthesise_whole(const NeuralParams& params, const Request& request, const Control& control,
                          const Group& group) {
-  const NeuralParams params =
-      directed_settings(asked, size_of(request), has_one_mix(request.target));
   const United united(request);
   const Exemplar& exemplar = united.exemplar();
   Synthesis synthesis(params, request, united, control, group);
@@ -461,14 +459,16 @@ Texture run_synthesis(const NeuralParams& asked, const Request& request, const C
                       const Group& group) {
   const c10::NoGradGuard no_gradients;
   start_openmp();
+  const RequestSize size = size_of(request);
+  const NeuralParams params = directed_settings(asked, size, has_one_mix(request.target));
   std::optional<FillWindow> window;
-  if (group.alone() && fills_window(asked, size_of(request)))
+  if (group.alone() && fills_window(params, size))
     window = window_about_holes(request, most_of_window);
-  if (!window) return synthesise_whole(asked, request, control, group);
+  if (!window) return synthesise_whole(params, request, control, group);
   return fill_by_windows(
       request, {*window},
       [&](const Request& part, const Control& own) {
-        Texture texture = synthesise_whole(asked, part, own, group);
+        Texture texture = synthesise_whole(params, part, own, group);
         // Stopped on a coarse level, it has that level's size.
         if (texture.image.size() != window->size)
           texture.image = resize(texture.image, window->size);

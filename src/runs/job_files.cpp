@@ -80,6 +80,16 @@ void remove_stale_temporaries(const fs::path& folder, const std::string& stem) {
   }
 }
 
+void remove_stale_views(const fs::path& folder) {
+  std::error_code ignored;
+  fs::recursive_directory_iterator at(folder / "page", ignored), end;
+  for (; !ignored && at != end; at.increment(ignored)) {
+    const std::string name = at->path().filename().string();
+    if (name.starts_with('.') && name.ends_with(".tmp") && at->is_regular_file(ignored))
+      remove_file(at->path());
+  }
+}
+
 void remove_replaced(const JobFiles& files, const std::vector<std::string>& before,
                      const std::vector<std::string>& now) {
   for (const auto& name : before) {

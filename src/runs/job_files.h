@@ -48,6 +48,8 @@ void remove_unfinished_state(const JobFiles& files);
 /// `folder` that begin with "stem." or "stem_".
 void remove_stale_temporaries(const JobFiles& files);
 void remove_stale_temporaries(const std::filesystem::path& folder, const std::string& stem);
+/// Likewise of all that a page shows, in `folder`/page. Nobody else may be writing it.
+void remove_stale_views(const std::filesystem::path& folder);
 
 /// Removes pictures of the result before that the new one has not written over.
 void remove_replaced(const JobFiles& files, const std::vector<std::string>& before,

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <vector>
 
 namespace gramloom {
 
@@ -27,6 +27,18 @@ struct BandPixel {
   float links = 0;                            // sides that pull at its shift
 };
 
+/// The channels of layers of these kinds.
+std::vector<int> channels_of(const Request& request, const std::vector<MapKind>& kinds) {
+  const Exemplar& exemplar = request.exemplars.front();
+  std::vector<Layer> layers = exemplar.layers;
+  if (layers.empty()) layers = {{"", MapKind::colour, 0, exemplar.image.channels}};
+  std::vector<int> channels;
+  for (const Layer& layer : layers)
+    if (std::ranges::find(kinds, layer.kind) != kinds.end())
+      for (int c = layer.first; c < layer.first + layer.count; ++c) channels.push_back(c);
+  return channels;
+}
+
 /// The new pixels near what is known, those at it first.
 class JoinBand {
  public:
@@ -34,6 +46,7 @@ class JoinBand {
       : texture_(texture),
         request_(request),
         target_(request.target),
+        alphas_(channels_of(request, {MapKind::alpha})),
         numbers_(pixel_count(target_.size), -1) {
     for (int y = 0; y < target_.size.height; ++y)
       for (int x = 0; x < target_.size.width; ++x)
@@ -49,17 +62,6 @@ class JoinBand {
 
   const std::vector<BandPixel>& pixels() const { return pixels_; }
 
-  /// Whether most pixels at joins were copied together with a new neighbour.
-  bool is_of_pieces() const {
-    int joins = 0, together = 0;
-    for (const BandPixel& pixel : pixels_)
-      if (pixel.distance == 0) {
-        ++joins;
-        together += is_of_piece(pixel.x, pixel.y) ? 1 : 0;
-      }
-    return 2 * together >= joins;
-  }
-
   /// Links the pixels, and returns what each is pulled to by the joins at it: of the channels.
   std::vector<float> pulls(const std::vector<int>& channels) {
     std::vector<float> result(pixels_.size() * channels.size(), 0.0f);
@@ -73,13 +75,42 @@ class JoinBand {
         if (is_made(u, v)) {
           pixel.beside[s] = number(u, v);
           ++pixel.links;
-        } else if (const float* beside = beside_source(pixel, side)) {
+        } else if (const float* beside = beside_source(pixel, side);
+                   beside && is_seen(beside) && is_seen(target_.known.at(u, v)) &&
+                   is_seen(texture_.image.at(pixel.x, pixel.y))) {
           ++pixel.links;
           add_lack(pixel, beside, u, v, channels, result.data() + i * channels.size());
         }
       }
     }
     return result;
+  }
+
+  /// Takes the pulls from each hole most of whose pixels at joins were copied alone, beside no
+  /// neighbour of their source: such have no steps to keep.
+  void drop_single_copies(std::vector<float>& pulls, std::size_t channels) const {
+    std::vector<bool> seen(pixels_.size(), false);
+    for (std::size_t first = 0; first < pixels_.size(); ++first) {
+      if (seen[first]) continue;
+      seen[first] = true;
+      std::vector<std::size_t> hole{first};
+      int joins = 0, together = 0;
+      for (std::size_t i = 0; i < hole.size(); ++i) {
+        const BandPixel& pixel = pixels_[hole[i]];
+        if (pixel.distance == 0) {
+          ++joins;
+          together += is_of_piece(pixel.x, pixel.y) ? 1 : 0;
+        }
+        for (const int beside : pixel.beside)
+          if (beside >= 0 && !seen[to_size(beside)]) {
+            seen[to_size(beside)] = true;
+            hole.push_back(to_size(beside));
+          }
+      }
+      if (2 * together >= joins) continue;
+      for (const std::size_t i : hole)
+        std::fill_n(pulls.begin() + static_cast<std::ptrdiff_t>(i * channels), channels, 0.0f);
+    }
   }
 
  private:
@@ -128,6 +159,11 @@ class JoinBand {
     return found;
   }
 
+  /// Colours of what is transparent say nothing.
+  bool is_seen(const float* pixel) const {
+    return std::ranges::all_of(alphas_, [&](int c) { return pixel[c] > 0.5f; });
+  }
+
   /// What lies beside the source, if that may be used.
   const float* beside_source(const BandPixel& pixel, JoinSide side) const {
     const Source source = *texture_.source.at(pixel.x, pixel.y);
@@ -156,23 +192,10 @@ class JoinBand {
   const Texture& texture_;
   const Request& request_;
   const Target& target_;
+  std::vector<int> alphas_;   // channels
   std::vector<int> numbers_;  // of a target's pixel in the band; −1: none
   std::vector<BandPixel> pixels_;
 };
-
-/// The channels of colours and scalars.
-std::vector<int> blended_channels(const Request& request) {
-  const Exemplar& exemplar = request.exemplars.front();
-  std::vector<int> channels;
-  const auto add = [&](int first, int count) {
-    for (int c = first; c < first + count; ++c) channels.push_back(c);
-  };
-  if (exemplar.layers.empty()) add(0, exemplar.image.channels);
-  for (const Layer& layer : exemplar.layers)
-    if (layer.kind == MapKind::colour || layer.kind == MapKind::scalar)
-      add(layer.first, layer.count);
-  return channels;
-}
 
 /// Solves the band's equations by successive over-relaxation, one pixel after the other: the same
 /// for any number of threads.
@@ -181,6 +204,8 @@ std::vector<float> shifts_of(const std::vector<BandPixel>& pixels, const std::ve
   const float screen = 1 / static_cast<float>(blend * blend);
   const float radius = 4 / (4 + screen);  // of Jacobi's iteration, inside
   const float relaxation = 2 / (1 + std::sqrt(1 - radius * radius));
+  float largest = 0;
+  for (const float pull : pulls) largest = std::max(largest, std::abs(pull));
   std::vector<float> shifts(pulls.size(), 0.0f);
   for (int sweep = 0; sweep < most_sweeps(blend); ++sweep) {
     float change = 0;
@@ -196,7 +221,7 @@ std::vector<float> shifts_of(const std::vector<BandPixel>& pixels, const std::ve
         change = std::max(change, std::abs(step));
       }
     }
-    if (change < enough) break;
+    if (change <= enough * largest) break;
   }
   return shifts;
 }
@@ -207,10 +232,10 @@ void blend_joins(Texture& texture, const Request& request) {
   const Target& target = request.target;
   if (target.blend <= 0 || target.known.empty() || target.mask.empty() || texture.source.empty())
     return;
-  const std::vector<int> channels = blended_channels(request);
+  const std::vector<int> channels = channels_of(request, {MapKind::colour, MapKind::scalar});
   JoinBand band(texture, request);
-  if (!band.is_of_pieces()) return;
-  const std::vector<float> pulls = band.pulls(channels);
+  std::vector<float> pulls = band.pulls(channels);
+  band.drop_single_copies(pulls, channels.size());
   const std::vector<float> shifts = shifts_of(band.pixels(), pulls, channels.size(), target.blend);
   const ChannelRange range = channel_range(texture.image);
   for (std::size_t i = 0; i < band.pixels().size(); ++i) {

@@ -13,11 +13,11 @@ namespace gramloom {
 ///   Σ (e_p − e_q)² + Σ (e_p − d_p)² + Σ e_p² / blend²  →  least,
 /// over pairs of new pixels, over joins, and over new pixels; d is what the step lacks.
 /// Departures: it fades (theirs fills the piece, whose middle should keep its colours); nothing is
-/// done where most pixels at joins were copied alone, beside no neighbour of their source: such
-/// have no steps to keep.
+/// done in a hole most of whose pixels at joins were copied alone, beside no neighbour of their
+/// source: such have no steps to keep.
 ///
-/// Normals and coverage stay copies. Values stay within those that the texture had. Nothing is done
-/// where there are no sources or nothing is known.
+/// Normals and coverage stay copies, and what is transparent has no joins. Values stay within those
+/// that the texture had. Nothing is done where there are no sources or nothing is known.
 void blend_joins(Texture& texture, const Request& request);
 
 }  // namespace gramloom

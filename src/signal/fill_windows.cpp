@@ -72,13 +72,6 @@ SourceMap own_sources(Size size, std::optional<std::size_t> same) {
   return sources;
 }
 
-/// Of a part that may not be used at all nothing can be made.
-bool can_be_used(const Exemplar& exemplar, const FillWindow& window, Size whole) {
-  const Image usable = cropped(exemplar.mask, window, whole);
-  const auto count = std::ranges::count_if(usable.pixels, [](float m) { return m > 0.5f; });
-  return usable.empty() || 4 * static_cast<std::size_t>(count) >= usable.pixels.size();
-}
-
 }  // namespace
 
 std::optional<std::size_t> same_picture(const Request& request) {
@@ -127,9 +120,10 @@ std::vector<FillWindow> fill_windows(const Request& request, double most) {
     }
   double total = 0;
   for (std::size_t i = 0; i < windows.size(); ++i) {
-    place(windows[i], with_surroundings(boxes[i], size));
-    total += area(windows[i].size);
-    if (!can_be_used(request.exemplars[*same], windows[i], size)) return {};
+    const Box box = with_surroundings(boxes[i], size);
+    place(windows[i], box);
+    total += area(box.size());
+    if (!has_enough(request.exemplars[*same].mask, box)) return {};
   }
   if (total > most * area(size)) return {};
   return windows;
@@ -138,11 +132,12 @@ std::vector<FillWindow> fill_windows(const Request& request, double most) {
 std::optional<FillWindow> window_about_holes(const Request& request, double most) {
   const Target& target = request.target;
   if (target.known.empty() || target.mask.empty() || target.tile != Tile::none) return std::nullopt;
-  FillWindow window;
-  place(window, with_surroundings(box_of(target.mask), target.size));
-  if (area(window.size) > most * area(target.size)) return std::nullopt;
+  const Box box = with_surroundings(box_of(target.mask), target.size);
+  if (area(box.size()) > most * area(target.size)) return std::nullopt;
   const auto same = same_picture(request);
-  if (same && !can_be_used(request.exemplars[*same], window, target.size)) return std::nullopt;
+  if (same && !has_enough(request.exemplars[*same].mask, box)) return std::nullopt;
+  FillWindow window;
+  place(window, box);
   for (std::size_t i = 0; i < target.mask.pixels.size(); ++i)
     if (target.mask.pixels[i] > 0.5f) window.made.push_back(i);
   return window;

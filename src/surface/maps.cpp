@@ -55,7 +55,8 @@ Cost estimate_maps(const SurfaceParams& params, Size size, Tile wraps) {
   return cost;
 }
 
-Image one_channel(const Image& map, float tolerance, std::string_view called) {
+Image one_channel(const Image& map, std::string_view called) {
+  constexpr float tolerance = 3.0f / 255;
   if (map.channels == 1) return map;
   for (std::size_t i = 0; i < map.pixels.size();) {
     const float first = map.pixels[i++];

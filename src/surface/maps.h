@@ -108,9 +108,8 @@ std::map<std::string, Image> maps_of_height(const Image& height, const MapParams
                                             Tile wraps);
 
 /// A height map as one channel. Grey that a file stores as colours counts as one: channels that
-/// differ nowhere by more than `tolerance` (three steps of 8 bits, which JPEG may make of it).
-/// Throws Error for others, which calls it as here.
-Image one_channel(const Image& map, float tolerance = 3.0f / 255,
-                  std::string_view called = "height");
+/// differ nowhere by more than three steps of 8 bits, which JPEG may make of it. Throws Error for
+/// others, which calls it as here.
+Image one_channel(const Image& map, std::string_view called = "height");
 
 }  // namespace gramloom

@@ -23,6 +23,24 @@ TEST(DirectedPixel, FillsWhatRepeatsExactlyAndKeepsTheRest) {
   }
 }
 
+// The ring that says in which phase a pattern goes on reaches beyond the exemplar then.
+TEST(DirectedPixel, LargeHolesInSmallExemplarsGoOnInPhase) {
+  const auto wall = [](Size size) {
+    Image image(size, 1);
+    for (int y = 0; y < size.height; ++y)
+      for (int x = 0; x < size.width; ++x)
+        *image.at(x, y) = y % 12 < 2 || (x + y / 12 % 2 * 12) % 24 < 2 ? 0.1f : 0.9f;
+    return image;
+  };
+  const Image picture = wall({256, 256});
+  const Image hole = rectangle(picture.size(), 64, 64, 128, 128, 1);
+  EXPECT_EQ(synthesise(PixelParams{}, fill_request(picture, hole), {}).image, picture);
+
+  Request from = fill_request(picture, rectangle(picture.size(), 100, 100, 24, 24, 1));
+  from.exemplars = {{wall({60, 52})}};
+  EXPECT_EQ(synthesise(PixelParams{}, from, {}).image, picture);
+}
+
 TEST(DirectedPixel, FillsNaturalPicturesFromUsablePixelsAlone) {
   const Image picture = blobs(90, 70, 3, 5);
   Image hole = rectangle(picture.size(), 10, 12, 30, 20, 1);

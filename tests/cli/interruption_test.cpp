@@ -190,7 +190,8 @@ TEST_F(Interruption, ARunFromTheStartThatIsKilledWhileItReplacesFilesLeavesNoRes
 
 TEST_F(Interruption, WhatAKilledProcessLeftOfAFinishedJobIsRemoved) {
   ASSERT_EQ(run({"run", "c.toml"}).exit_code, 0);
-  const std::vector<std::string> left{"e/q/.seed1.json.41babc3f.22701.22.tmp", "e/q/seed1.lock"};
+  const std::vector<std::string> left{"e/q/.seed1.json.41babc3f.22701.22.tmp", "e/q/seed1.lock",
+                                      "page/e/q/.seed1.view.js.074bf231.8783.11.tmp"};
   write_text(folder_ / "out/c" / left[0], "{");
   write_text(folder_ / "out/c" / left[1], "held by gramloom, process 22701 on host\n");
   EXPECT_EQ(run({"run", "c.toml", "--resume"}).exit_code, 0);

@@ -116,10 +116,13 @@ TYPED_TEST(Directed, JoinsOfAFillShowLessWhenTheyAreBlended) {
     if (mask.pixels[i / 3] == 0) {
       ASSERT_EQ(blended.image.pixels[i], picture.pixels[i]) << "value " << i;
     }
-  if (std::is_same_v<TypeParam, HistogramParams> || std::is_base_of_v<MarkovParams, TypeParam>)
+  const double before = join_visibility(copied.image, mask);
+  if (std::is_same_v<TypeParam, HistogramParams>)
     EXPECT_EQ(blended.image, copied.image) << "pixels that are copied one by one have no steps";
+  else if (std::is_base_of_v<MarkovParams, TypeParam>)  // pieces in one of the holes alone
+    EXPECT_LE(join_visibility(blended.image, mask), before);
   else
-    EXPECT_LT(join_visibility(blended.image, mask), 0.9 * join_visibility(copied.image, mask));
+    EXPECT_LT(join_visibility(blended.image, mask), 0.9 * before);
 }
 
 TYPED_TEST(Directed, MaskedPixelsAreNeverUsed) {

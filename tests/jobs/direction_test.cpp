@@ -41,6 +41,7 @@ class DirectionOfConfig : public testing::Test {
           }));
     Image clear(8, 8, 4, 1.0f);
     clear.at(3, 0)[3] = 0.2f;
+    clear.at(4, 0)[3] = 0.8f;
     write("clear.png", clear);
     write("both.png", picture({40, 30}, 1, [](int x, int) { return x < 20 ? 0.8f : 0.2f; }));
   }
@@ -144,7 +145,11 @@ TEST_F(DirectionOfConfig, PicturesWithAndWithoutAlphaAreOneMaterial) {
   EXPECT_EQ(both.files[0].encoding.channel_names.back(), "A");
   EXPECT_THAT(both.notes, testing::ElementsAre("e.png: taken as opaque beside clear.png"));
 
-  // A picture that is filled keeps its channels.
+  write("grey.png", Image(16, 16, 1, 0.5f));
+  EXPECT_THAT(complaint("[[exemplar]]\nname = 'e'\nimages = ['grey.png', 'clear.png']\n"),
+              HasSubstr("the picture of grey.png has 1 channels, and of clear.png 4"));
+
+  // A picture that is filled keeps its channels. Edges that are half transparent may be used.
   const std::string mask = "[[exemplar]]\nname = 'c'\nmask = 'alpha'\nimage = 'clear.png'\n";
   const LoadedRequest plain = load("[fill]\nimage = 'e.png'\nmask = 'hole.png'\n" + mask);
   EXPECT_EQ(plain.exemplars[0].image.channels, 3);
@@ -293,7 +298,7 @@ TEST_F(DirectionOfConfig, MistakesAreOneLineThatNamesBothSides) {
       {"coordinates = true\n[fill]\nimage = 'e.png'\nmask = 'hole.png'\n",
        "(blend = 4), and there are no coordinates of blends: allowed with coordinates is blend = "
        "0"},
-      {"[fill]\nimage = 'e.png'\nmask = 'hole.png'\nblend = 65\n", "blend"},
+      {"[fill]\nimage = 'e.png'\nmask = 'hole.png'\nblend = 17\n", "blend"},
       {"[fill]\nimage = 'e.png'\nmask = 'hole.png'\n[[exemplar]]\nname = 'c'\nimage = "
        "'clear.png'\n",
        "clear.png is transparent at (3, 0), and e.png, which is filled, has no alpha"},

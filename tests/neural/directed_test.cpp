@@ -14,6 +14,7 @@
 #include "neural/loss/patch_list.h"
 #include "neural/loss/patches.h"
 #include "neural/quarter_means.h"
+#include "neural/settings.h"
 #include "syntheses.h"
 #include "tensors.h"
 
@@ -135,7 +136,8 @@ TEST(NeuralDirected, AFillLooksAtWhatIsAroundItsHolesAlone) {
   request.exemplars = {{whole}};
   request.exemplars[0].mask = rectangle(size, 10, 20, 12, 14, 0, 1);
   request.target = {.size = size, .known = whole, .mask = rectangle(size, 10, 20, 12, 14, 1, 0)};
-  const NeuralParams params = quick(Layout::noise);
+  NeuralParams params = quick(Layout::noise);
+  params.levels = 0;
   const Image first = run(params, request);
   const auto change = [&](int x, int y) {
     for (Image* image : {&request.exemplars[0].image, &request.target.known})
@@ -161,11 +163,50 @@ TEST(NeuralDirected, AFillLooksAtWhatIsAroundItsHolesAlone) {
   control.progress = [](const Progress&) { return false; };
   EXPECT_EQ(synthesise(params, request, control).image.size(), size);
 
-  const RequestSize asked = size_of(request);
+  RequestSize asked = size_of(request);
+  EXPECT_FALSE(asked.exemplars[0].filled);
   EXPECT_EQ(asked.around, (Size{22 + 128, 34 + 128}));
   RequestSize all = asked;
   all.around = size;
   EXPECT_LT(estimate(params, asked).bytes, 0.8 * estimate(params, all).bytes);
+}
+
+TEST(NeuralDirected, AFillsWindowIsOnlyWhereItCanBe) {
+  const Size size{420, 300};
+  Request request;
+  request.exemplars = {{stripes(size, 3)}};
+  request.exemplars[0].mask = rectangle(size, 10, 20, 12, 14, 0, 1);
+  request.target = {.size = size,
+                    .known = request.exemplars[0].image,
+                    .mask = rectangle(size, 10, 20, 12, 14, 1, 0)};
+  const auto looks_around = [](const Request& asked, const NeuralParams& params) {
+    return neural::fills_window(params, size_of(asked));
+  };
+  NeuralParams params = quick(Layout::noise);
+  EXPECT_FALSE(looks_around(request, params)) << "it asks for levels, which may need the whole";
+  params.levels = 0;
+  EXPECT_TRUE(looks_around(request, params));
+  EXPECT_TRUE(size_of(request).exemplars[0].filled);
+  Request tiling = request;
+  tiling.target.tile = Tile::x;
+  EXPECT_FALSE(looks_around(tiling, params));
+  Request barred = request;
+  barred.exemplars[0].mask = rectangle(size, 0, 0, 150, 160, 0, 1);
+  EXPECT_FALSE(looks_around(barred, params)) << "nothing about the hole may be used";
+}
+
+// Weights that differ in the picture, though not about the hole, are not one mix.
+TEST(NeuralDirected, AFillsWindowDoesNotChangeWhatAMixIs) {
+  const Size size{420, 300};
+  Request request;
+  request.exemplars = {{stripes({96, 64}, 3)}, {stripes({96, 64}, 3)}};
+  request.target = {
+      .size = size, .known = stripes(size, 3), .mask = rectangle(size, 10, 20, 12, 14, 1, 0)};
+  request.target.weights = Image(size, 2, 1.0f);
+  request.target.weights.at(400, 100)[0] = 3;
+  NeuralParams params = quick(Layout::flow);
+  params.levels = 0;
+  EXPECT_NO_THROW(run(params, request));
 }
 
 TEST(NeuralDirected, FillsGoOnAcrossEdgesThatWrap) {

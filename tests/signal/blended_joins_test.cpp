@@ -95,6 +95,9 @@ TEST(BlendedJoins, NormalsAndCoverageStayCopies) {
                                      {"", MapKind::alpha, 1, 1},
                                      {"n", MapKind::normal, 2, 3},
                                      {"height", MapKind::scalar, 5, 1}};
+  for (Image* image : {&row.request.target.known, &row.texture.image})
+    for (int x = 0; x < 60; ++x) image->at(x, 0)[1] += 0.2f;  // opaque enough to have joins
+  for (int x = 0; x < 60; ++x) row.request.exemplars[0].image.at(x, 0)[1] += 0.2f;
   const Image before = row.texture.image;
   blend_joins(row.texture, row.request);
   for (int c = 0; c < 6; ++c) {
@@ -104,6 +107,49 @@ TEST(BlendedJoins, NormalsAndCoverageStayCopies) {
     else
       EXPECT_EQ(shift, 0) << c;
   }
+}
+
+TEST(BlendedJoins, WhatIsTransparentHasNoJoins) {
+  Row row = row_of(60, 20, 0.1f, 4, 2);
+  row.request.exemplars[0].layers = {{"", MapKind::scalar, 0, 1}, {"", MapKind::alpha, 1, 1}};
+  for (Image* image :
+       {&row.request.exemplars[0].image, &row.request.target.known, &row.texture.image})
+    for (int x = 0; x < 60; ++x) image->at(x, 0)[1] = 1;
+  Row clear = row;
+  clear.request.target.known.at(19, 0)[1] = 0;  // beside the first new pixel
+  const Image before = row.texture.image;
+  blend_joins(row.texture, row.request);
+  EXPECT_NE(row.texture.image, before);
+  blend_joins(clear.texture, clear.request);
+  EXPECT_EQ(clear.texture.image, before);
+}
+
+// Holes are judged each by itself: dust elsewhere changes nothing.
+TEST(BlendedJoins, AHoleOfOnePixelDoesNotSpeakForOthers) {
+  Row row = row_of(120, 100, 0.1f, 4);
+  Row dusty = row;
+  for (int x = 1; x < 90; x += 3) {
+    *dusty.request.target.mask.at(x, 0) = 1;
+    *dusty.texture.image.at(x, 0) -= 0.1f;
+  }
+  const Image before = dusty.texture.image;
+  blend_joins(row.texture, row.request);
+  blend_joins(dusty.texture, dusty.request);
+  for (int x = 0; x < 90; ++x) EXPECT_EQ(*dusty.texture.image.at(x, 0), *before.at(x, 0)) << x;
+  for (int x = 100; x < 120; ++x)
+    EXPECT_EQ(*dusty.texture.image.at(x, 0), *row.texture.image.at(x, 0)) << x;
+}
+
+TEST(BlendedJoins, ShiftsAreInProportionToTheValues) {
+  Row row = row_of(60, 20, 0.1f, 4);
+  Row small = row;
+  for (Image* image :
+       {&small.request.exemplars[0].image, &small.request.target.known, &small.texture.image})
+    for (float& value : image->pixels) value *= 0x1p-14f;
+  blend_joins(row.texture, row.request);
+  blend_joins(small.texture, small.request);
+  for (int x = 0; x < 60; ++x)
+    EXPECT_EQ(*small.texture.image.at(x, 0), 0x1p-14f * *row.texture.image.at(x, 0)) << x;
 }
 
 TEST(BlendedJoins, GoAroundEdgesThatTile) {
