@@ -107,14 +107,17 @@ namespace {
 
 /// What other programs print and lay out by. Nothing where the metadata has none.
 void add_resolution(OIIO::ImageSpec& spec, const Metadata& metadata) {
-  for (const char* name : resolution_names)
-    if (const auto text = metadata.find(name); text != metadata.end()) {
-      float value = 0;
-      const char* const end = text->second.data() + text->second.size();
-      const auto [read, error] = std::from_chars(text->second.data(), end, value);
-      if (error != std::errc() || read != end || value <= 0) return;
-      spec.attribute(name, value);
-    }
+  std::array<float, resolution_names.size()> values{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto text = metadata.find(resolution_names[i]);
+    if (text == metadata.end()) return;
+    const char* const end = text->second.data() + text->second.size();
+    const auto [read, error] = std::from_chars(text->second.data(), end, values[i]);
+    if (error != std::errc() || read != end || values[i] <= 0) return;
+    spec.attribute(resolution_names[i], values[i]);
+  }
+  // Some of OpenImageIO's writers take the second from the first and this.
+  spec.attribute("PixelAspectRatio", values[1] / values[0]);
   if (const auto unit = metadata.find("ResolutionUnit"); unit != metadata.end())
     spec.attribute("ResolutionUnit", unit->second == "inch" ? "in" : unit->second);
 }
