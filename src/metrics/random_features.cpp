@@ -57,7 +57,9 @@ std::vector<cv::Mat> convolved(const std::vector<cv::Mat>& inputs, int layer, in
   std::vector<cv::Mat> result(static_cast<std::size_t>(outputs));
   parallel_for(outputs, 1, [&](std::int64_t begin, std::int64_t end) {
     for (auto out = static_cast<int>(begin); out < end; ++out) {
-      cv::Mat sum = cv::Mat::zeros(inputs[0].size(), CV_32F), term;
+      // No expressions of matrices: OpenCV sets these up on first use, which the thread sanitizer
+      // takes for a race.
+      cv::Mat sum(inputs[0].size(), CV_32F, cv::Scalar(0)), term;
       for (std::size_t in = 0; in < inputs.size(); ++in) {
         if (inputs[in].empty()) continue;
         cv::filter2D(
@@ -66,8 +68,11 @@ std::vector<cv::Mat> convolved(const std::vector<cv::Mat>& inputs, int layer, in
             {-1, -1}, 0, cv::BORDER_REFLECT_101);
         sum += term;
       }
-      result[static_cast<std::size_t>(out)] =
-          layer == 1 ? cv::Mat(cv::abs(sum)) : cv::Mat(cv::max(sum, 0));
+      cv::Mat& made = result[static_cast<std::size_t>(out)];
+      if (layer == 1)
+        cv::absdiff(sum, cv::Scalar(0), made);
+      else
+        cv::threshold(sum, made, 0, 0, cv::THRESH_TOZERO);
     }
   });
   return result;
