@@ -150,7 +150,9 @@ void OverlapErrors::compute(const Image& patch, const Sides& sides,
 
 OverlapErrors::Spectra OverlapErrors::spectra_of_rows(const Image& image, int length) {
   Spectra result{length, image.channels, {}};
-  result.values = cv::Mat1f::zeros(image.height, image.channels * 2 * result.frequencies());
+  // Not zeros(): OpenCV sets its expressions up on first use, which looks like a race.
+  result.values.create(image.height, image.channels * 2 * result.frequencies());
+  result.values = 0.0f;
   cv::Mat lines(image.channels, length, CV_32F);
   for (int y = 0; y < image.height; ++y) {
     const float* row = image.at(0, y);

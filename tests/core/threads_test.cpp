@@ -127,8 +127,8 @@ TEST(Threads, AChildWithoutItsParentsThreadsWorksAlone) {
 }
 
 TEST(Threads, WhereNoThreadCanBeMadeTheCallerWorksAlone) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the sanitizer needs the address space";
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizer needs the address space, or threads of one process";
 #endif
   EXPECT_EQ(exit_code_of([] {
               alarm(20);
