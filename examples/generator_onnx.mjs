@@ -55,6 +55,12 @@ const output = words[4];
 // From where it is installed: beside this file, or in the folder that we are in.
 const ort = createRequire(`${process.cwd()}/`)('onnxruntime-node');
 const description = descriptionOf(file);
+const unit = 2 ** (description.noise.length - 1);
+for (const [side, bit, name] of [[width, 1, 'width'], [height, 2, 'height']])
+  if (tile & bit && side % unit !== 0) {
+    console.error(`${name} ${side}: a side that tiles must be a multiple of ${unit}`);
+    process.exit(2);
+  }
 const [across, down] = [frameOf(description, width), frameOf(description, height)];
 const inputs = {};
 description.noise.forEach((channels, k) => {

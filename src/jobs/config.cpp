@@ -132,7 +132,7 @@ void check_whole(const Config& config, const toml::table& table) {
   check_seeds(config, table);
   check_coordinates(config);
   if (config.methods.empty() && config.models.empty())
-    throw ConfigError("{}: there is no [[method]]", config.file.string());
+    throw ConfigError("{}: there is no [[method]], nor a [[model]] to train", config.file.string());
   for (const auto& method : config.methods)
     if (needs_exemplar(method.method) && config.exemplars.empty())
       throw ConfigError("{}: method '{}' needs an [[exemplar]]", method.place, method.name);

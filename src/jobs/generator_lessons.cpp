@@ -83,10 +83,11 @@ std::vector<float> alone(std::size_t material, std::size_t materials) {
 class StateJudge {
  public:
   StateJudge(const GeneratorLesson& lesson, const JobFiles& files, Json settings)
-      : files_(files), settings_(std::move(settings)) {
+      : files_(files),
+        settings_(std::move(settings)),
+        colours_(lesson.description.layers.front().count) {
     for (const Image& exemplar : lesson.exemplars)
-      statistics_.emplace_back(
-          extract_channels(exemplar, 0, lesson.description.layers.front().count));
+      statistics_.emplace_back(extract_channels(exemplar, 0, colours_));
   }
 
   double operator()(const TrainingState& state) {
@@ -105,8 +106,10 @@ class StateJudge {
       pictures.push_back(
           split_generated(generate(state.model, wanted, {}), state.model.description).image);
       if (state.levels_to_come == 0)
-        sum += gram_distance(statistics_[m].features(),
-                             random_features(components(pictures.back(), statistics_[m].frame())));
+        sum +=
+            gram_distance(statistics_[m].features(),
+                          random_features(components(extract_channels(pictures.back(), 0, colours_),
+                                                     statistics_[m].frame())));
     }
     keep(pictures, state.step);
     return sum / static_cast<double>(count);
@@ -134,6 +137,7 @@ class StateJudge {
 
   const JobFiles& files_;
   Json settings_;
+  int colours_;  // channels of the picture but for its alpha
   std::vector<ExemplarStatistics> statistics_;
 };
 

@@ -43,6 +43,20 @@ double number_of(const std::string& cell) {
   return value;
 }
 
+// What follows an open quote would be one cell, and the rest of the table lost.
+void check_quotes(const std::string& text, const fs::path& table) {
+  std::size_t line = 1, opened = 0;
+  bool quoted = false;
+  for (const char c : text) {
+    if (c == '"') {
+      quoted = !quoted;
+      opened = line;
+    }
+    if (c == '\n') ++line;
+  }
+  if (quoted) throw Error("{}: a quote is not closed", place_in(table, opened));
+}
+
 void check_columns(const CsvRow& columns, const fs::path& table) {
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (columns[i].empty()) throw Error("{}: column {} has no name", place_in(table, 1), i + 1);
@@ -89,10 +103,14 @@ Image read_picture(const fs::path& file, InferencePairs& pairs) {
 PoseTable read_pose_table(const fs::path& file) { return parse_pose_table(read_text(file), file); }
 
 PoseTable parse_pose_table(std::string text, const fs::path& file) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // as spreadsheets write it
+  if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
+  check_quotes(text, file);
   if (!text.ends_with('\n')) text += '\n';
   const std::vector<CsvRow> rows = parse_csv(text);
-  if (rows.empty()) throw Error("{}: is no table: a quote is not closed", file.string());
   const CsvRow& columns = rows.front();
+  if (columns.size() == 1 && columns[0].find(';') != std::string::npos)
+    throw Error("{}: cells are parted by ';', allowed is ','", place_in(file, 1));
   check_columns(columns, file);
   PoseTable table;
   for (const std::string& column : columns)

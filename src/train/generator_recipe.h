@@ -70,7 +70,7 @@ struct GeneratorRecipe {
               "share of it with which the next coarser level is trained on",
               "",
               {0, 1}},
-        Field{"patch_size", &R::patch_size, "sides of patches, by turns", "pixels", {1, 15}},
+        Field{"patch_size", &R::patch_size, "sides of patches, odd, by turns", "pixels", {1, 15}},
         Field{
             "directions", &R::directions, "that patches are projected on in a step", "", {1, 1024}},
         Field{

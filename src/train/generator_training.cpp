@@ -30,6 +30,11 @@ Size smallest_of(const std::vector<Image>& exemplars) {
   return size;
 }
 
+// Patches of a level, and what its discriminator sees, need some room.
+int needed_side(const GeneratorRecipe& recipe, int level) {
+  return 2 * std::max(recipe.patch_size.front(), 2 * at_level(recipe.adversary_layers, level) + 1);
+}
+
 }  // namespace
 
 void check_recipe(const GeneratorRecipe& recipe) {
@@ -39,8 +44,8 @@ void check_recipe(const GeneratorRecipe& recipe) {
 
 std::vector<GeneratorLevel> levels_of(const GeneratorRecipe& recipe, Size smallest) {
   const double side = std::min(smallest.width, smallest.height);
-  const int finer =
-      std::max(0, static_cast<int>(std::lround(std::log2(side / recipe.coarsest_side))));
+  int finer = std::max(0, static_cast<int>(std::lround(std::log2(side / recipe.coarsest_side))));
+  while (finer > 0 && static_cast<int>(side) >> finer < needed_side(recipe, 0)) --finer;
   std::vector<GeneratorLevel> levels;
   for (int k = 0; k <= std::min(finer, 7); ++k)
     levels.push_back(
@@ -48,28 +53,41 @@ std::vector<GeneratorLevel> levels_of(const GeneratorRecipe& recipe, Size smalle
   return levels;
 }
 
+void check_lesson(const GeneratorLesson& lesson) {
+  const GeneratorRecipe& recipe = lesson.recipe;
+  check_recipe(recipe);
+  const Size smallest = smallest_of(lesson.exemplars);
+  const int side = std::min(smallest.width, smallest.height);
+  const int levels = static_cast<int>(levels_of(recipe, smallest).size());
+  if (const int coarsest = side >> (levels - 1), needed = needed_side(recipe, 0); coarsest < needed)
+    throw ConfigError("the exemplar is too small: it has a side of {} pixels, needed are {}",
+                      coarsest, needed);
+  if (at_level(recipe.steps, levels - 1) == 0)
+    throw ConfigError("steps = 0 of the finest level: it would stay untrained");
+  const int patch = *std::ranges::max_element(recipe.patch_size);
+  for (int k = 0; k < levels; ++k) {
+    const int crop = at_level(recipe.crop, k), layers = at_level(recipe.adversary_layers, k);
+    if (const int needed = std::max(2 * patch, 2 * layers + 1); crop < needed)
+      throw ConfigError(
+          "crop = {} of level {} is too small: patches of {} pixels and a discriminator of {} "
+          "layers need {}",
+          crop, k + 1, patch, layers, needed);
+  }
+}
+
 GeneratorModel train_generator(const GeneratorLesson& lesson, const Control& control,
                                const Judge& judge) {
-  check_recipe(lesson.recipe);
-  const Size smallest = smallest_of(lesson.exemplars);
-  // Patches of the coarsest level, and what its convolutions see, need some room.
-  const int needed = 2 * std::max(lesson.recipe.patch_size.front(),
-                                  2 * lesson.recipe.adversary_layers.front() + 1);
+  check_lesson(lesson);
   GeneratorLesson whole = lesson;
   GeneratorDescription& description = whole.description;
-  description.levels = levels_of(lesson.recipe, smallest);
+  description.levels = levels_of(lesson.recipe, smallest_of(lesson.exemplars));
   description.channels = lesson.exemplars.front().channels;
   description.recipe = to_json_value(lesson.recipe);
-  const int coarsest = std::min(smallest.width, smallest.height) >> (description.levels.size() - 1);
-  if (coarsest < needed)
-    throw ConfigError(
-        "the exemplar is too small: its coarsest level has a side of {} pixels, needed are {}",
-        coarsest, needed);
   return open_module<TrainModule>().train_generator(whole, control, judge);
 }
 
 Cost estimate_training(const GeneratorLesson& lesson) {
-  check_recipe(lesson.recipe);
+  check_lesson(lesson);
   const auto levels = levels_of(lesson.recipe, smallest_of(lesson.exemplars));
   const int count = static_cast<int>(levels.size());
   const double side =

@@ -4,6 +4,7 @@
 
 #include "io/safetensors.h"
 #include "neural/openmp.h"
+#include "train/finite_loss.h"
 #include "train/generator_stage.h"
 #include "train/train_module.h"
 
@@ -121,6 +122,7 @@ void train_level(Training& training) {
     progress.steps = training.total;
     progress.evaluations = progress.step;
     progress.loss = progress.terms.front().value;
+    check_finite_loss(progress);
     const bool last = training.next_step == stage.steps();
     if (last || progress.step % training.lesson.recipe.sample_every == 0)
       stage.with_means([&] { look(training, static_cast<int>(progress.step)); });

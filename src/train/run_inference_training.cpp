@@ -6,6 +6,7 @@
 
 #include "core/random.h"
 #include "neural/openmp.h"
+#include "train/finite_loss.h"
 #include "train/inference_net.h"
 #include "train/optimiser_state.h"
 #include "train/train_module.h"
@@ -81,6 +82,7 @@ class InferenceTraining {
     auto kept_at = std::chrono::steady_clock::now();
     while (next_step_ < steps) {
       const Progress progress = step();
+      check_finite_loss(progress);
       const bool last = next_step_ == steps;
       if (last || next_step_ % lesson_.recipe.sample_every == 0) look();
       const bool goes_on = control_.report(progress);

@@ -66,6 +66,44 @@ TEST_F(TrainCommand, LeavesAModelAndItsTextures) {
   EXPECT_EQ(read_image(folder_ / "g.png").image, read_image(out / "spots/small/seed1.png").image);
 }
 
+TEST_F(TrainCommand, LearnsAPictureWithAlpha) {
+  write_config();
+  const Image spots = read_image(folder_ / "spots.png").image;
+  Image opaque(spots.size(), 4, 1.0f);
+  for (std::size_t i = 0; i < spots.pixels.size(); ++i)
+    opaque.pixels[4 * (i / 3) + i % 3] = spots.pixels[i];
+  write_image(folder_ / "spots.png", opaque, {});
+  const Outcome outcome = train({"--quiet"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(read_image(folder_ / "out/t/spots/small/seed1.png").image.channels, 4);
+}
+
+TEST_F(TrainCommand, ATrainingAnewLeavesNoSamplesOfTheOneBefore) {
+  write_config();
+  ASSERT_EQ(train({"--quiet"}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "out/t/models/spots_small_000060.png"));
+  write_text(folder_ / "out/t/models/spots_small_notes.png", "the user's");
+  ASSERT_EQ(train({"--quiet", "--set", "model.small.steps=[10]"}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "out/t/models/spots_small_000020.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/t/models/spots_small_000060.png"));
+  EXPECT_EQ(file("out/t/models/spots_small_notes.png"), "the user's");
+}
+
+TEST_F(TrainCommand, WhatCannotBeTrainedIsSaidBefore) {
+  write_config();
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"steps=[40, 0]", "steps = 0 of the finest level"},
+      {"crop=[16]", ""},
+      {"adversary_layers=[8]", ""},  // one level less
+      {"patch_size=[9, 9, 11]", "crop = 16 of level 1 is too small"}};
+  for (const auto& [set, why] : cases) {
+    const Outcome outcome =
+        run({"check", "t.toml", "--set", "model.small." + set, "--set",
+             why.starts_with("crop") ? "model.small.crop=[16]" : "model.small.seed=1"});
+    EXPECT_THAT(outcome.output, HasSubstr(why.empty() ? "spots_small" : why)) << set;
+  }
+}
+
 TEST_F(TrainCommand, ABlendIsEachOfItsMaterials) {
   write_config("blend = true\n", "[[exemplar]]\nname = 'rings'\nimage = 'rings.png'\n");
   const Outcome outcome = train({"--quiet", "--set", "model.small.steps=[160, 100]"});

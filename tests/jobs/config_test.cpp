@@ -135,7 +135,7 @@ TEST_F(ConfigText, MissingKeysAndTables) {
             "a.toml:4:1: key 'name' is missing");
   EXPECT_EQ(complaint("[[exemplar]]\nname = 'e'\n" + quilting),
             "a.toml:1:1: key 'image' is missing");
-  EXPECT_EQ(complaint(""), "a.toml: there is no [[method]]");
+  EXPECT_EQ(complaint(""), "a.toml: there is no [[method]], nor a [[model]] to train");
   EXPECT_EQ(complaint(quilting), "a.toml:1:1: method 'q' needs an [[exemplar]]");
 }
 

@@ -88,6 +88,9 @@ TEST_F(PairsTest, MistakesAreToldWithFileAndLine) {
     return says;
   };
   EXPECT_EQ(with(3, ",3,-1"), "t.csv:5: names no picture");
+  EXPECT_EQ(with(3, "\"p3.exr,3,-1"), "t.csv:5: a quote is not closed");
+  EXPECT_EQ(refusal("picture;bend;twist"), "t.csv:1: cells are parted by ';', allowed is ','");
+  EXPECT_EQ(refusal("\xEF\xBB\xBFpicture,bend,twist"), "") << "a spreadsheet's byte order mark";
   EXPECT_EQ(with(3, "p3.exr,x,-1"), "t.csv:5: bend: 'x' is not a number");
   EXPECT_EQ(with(3, "p3.exr,,-1"), "t.csv:5: bend: '' is not a number");
   EXPECT_EQ(with(3, "p3.exr,nan,-1"), "t.csv:5: bend: 'nan' is not a finite number");
