@@ -8,6 +8,7 @@
 #include "jobs/names.h"
 #include "jobs/overrides.h"
 #include "train/generator_training.h"
+#include "train/inference_training.h"
 
 namespace gramloom {
 
@@ -54,6 +55,11 @@ void check_entry(const GeneratorRecipe& recipe, const toml::table& table, const 
 void check_entry(const InferenceTask& task, const toml::table& table, const Config&) {
   if (task.pairs.empty() == task.simulation.empty())
     fail(key_region(table, "kind"), "an inference needs either 'pairs' or 'simulation'");
+  try {
+    check_recipe(task);
+  } catch (const ConfigError& error) {
+    fail(key_region(table, "kind"), "{}", error.what());
+  }
   if (task.pose.empty() && task.to.empty()) {
     for (const char* key : {"frames", "extrapolate"})
       if (table.contains(key))

@@ -85,16 +85,17 @@ function configOf(job) {
 }
 
 /** The command that makes this picture again, as its own record has it: another run may have had
- *  other options. Only neural results depend on the threads. */
+ *  other options. Neural results and trainings depend on the threads. */
 function commandOf(job) {
   const { config, set, threads } = job.origin;
+  const same = threads > 0 ? ['--threads', String(threads)] : [];
   // A training's textures come with its models.
   if (data.run.command[1] === 'train')
     return [data.run.command[0], 'train', config || 'CONFIG', '--resume',
-      ...set.flatMap((option) => ['--set', option])].map(quoted).join(' ');
+      ...set.flatMap((option) => ['--set', option]), ...same].map(quoted).join(' ');
   return [data.run.command[0] ?? 'gramloom', 'run', config || 'CONFIG', '--only', job.name,
     ...set.flatMap((option) => ['--set', option]),
-    ...(job.kind === 'neural' && threads > 0 ? ['--threads', String(threads)] : [])]
+    ...(job.kind === 'neural' ? same : [])]
     .map(quoted).join(' ');
 }
 

@@ -53,13 +53,13 @@ Tile wrapping_axes(const std::vector<Image>& pictures) {
   return wrapping(wraps(along_x), wraps(along_y));
 }
 
-namespace {
-
 void check_recipe(const InferenceRecipe& recipe) {
   check_fields(recipe);
   if (recipe.hidden.empty() || recipe.hidden.size() > 10)
     throw ConfigError("hidden has {} numbers: allowed are 1 to 10", recipe.hidden.size());
 }
+
+namespace {
 
 // Of the network, all that its size hangs on but the numbers of a pose.
 void describe(const InferenceRecipe& recipe, Size size, int channels,

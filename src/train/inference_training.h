@@ -33,6 +33,9 @@ using InferenceJudge = std::function<double(const InferenceState&)>;
 /// pixels differ about as little as the pixels beside them do.
 Tile wrapping_axes(const std::vector<Image>& pictures);
 
+/// Throws ConfigError for what is out of range.
+void check_recipe(const InferenceRecipe& recipe);
+
 /// The trained model. With `control.checkpoint` it goes on from where it stopped, to the same bytes
 /// as uninterrupted (for the same number of threads). Throws ConfigError for a recipe out of range,
 /// Interrupted when the progress says stop.
