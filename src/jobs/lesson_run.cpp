@@ -5,6 +5,7 @@
 #include "jobs/memory.h"
 #include "jobs/trace_log.h"
 #include "learnt/model_file.h"
+#include "runs/samples.h"
 
 namespace gramloom {
 
@@ -42,22 +43,6 @@ bool is_trace(const fs::path& file) {
   }
 }
 
-// NAME_000200.png or NAME_held_out.png: what a training shows of itself.
-bool is_sample(const fs::path& file, const std::string& name) {
-  if (file.extension() != ".png" || !file.stem().string().starts_with(name + "_")) return false;
-  const std::string what = file.stem().string().substr(name.size() + 1);
-  return what == "held_out" ||
-         (what.size() >= 6 && what.find_first_not_of("0123456789") == std::string::npos);
-}
-
-std::vector<fs::path> samples_of(const JobFiles& files) {
-  std::vector<fs::path> samples;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(files.folder, ignored))
-    if (is_sample(entry.path(), files.name)) samples.push_back(entry.path());
-  return samples;
-}
-
 [[noreturn]] void refuse_foreign(const fs::path& file) {
   throw Error("would replace {}, which no training of gramloom made",
               file.lexically_normal().string());
@@ -85,7 +70,8 @@ double run_training(const LessonRun& run, const std::string& identity,
   if (!run.options.resume || !trace.continues() || !fs::exists(run.files.checkpoint)) {
     trace.restart();
     remove_file(run.files.checkpoint);
-    for (const fs::path& sample : samples_of(run.files)) remove_file(sample);  // of one before
+    for (const Sample& sample : samples_in(run.files.folder, run.files.name))
+      remove_file(sample.file);  // of one before
   }
   Control control;
   control.checkpoint = run.files.checkpoint;
@@ -108,8 +94,8 @@ void check_outputs(const JobFiles& files, const ProtectedFiles& inputs) {
   std::error_code ignored;
   if (fs::exists(model, ignored) && !is_model(model)) refuse_foreign(model);
   if (fs::exists(files.trace, ignored) && !is_trace(files.trace)) refuse_foreign(files.trace);
-  for (const fs::path& sample : samples_of(files))
-    check_replaced(sample, inputs, "gramloom:settings");
+  for (const Sample& sample : samples_in(files.folder, files.name))
+    check_replaced(sample.file, inputs, "gramloom:settings");
 }
 
 }  // namespace gramloom

@@ -13,6 +13,7 @@
 #include "report/preview.h"
 #include "report/sequence_view.h"
 #include "report/surface_view.h"
+#include "report/training_view.h"
 #include "runs/job_files.h"
 #include "runs/job_maps.h"
 
@@ -332,6 +333,7 @@ Json page_data(const RunOnDisk& run) {
           trouble);
   }
   const Json sequences = sequence_views(run, trouble);
+  const Json trainings = training_views(run, trouble);
   return {{"title", title_of(run)},
           {"run", run_to_json(run.run)},
           {"trouble", trouble},
@@ -341,6 +343,7 @@ Json page_data(const RunOnDisk& run) {
           {"map_metrics", metrics_to_json(map_metrics())},
           {"baseline", comparison ? baseline_summary(*comparison) : Json()},
           {"sequences", sequences},
+          {"trainings", trainings},
           {"jobs", jobs},
           {"diversity", to_json_value(run.diversity)}};
 }

@@ -14,6 +14,7 @@ namespace gramloom {
 ///   methods    [name …], in the order of the jobs
 ///   baseline   how the run differs from an earlier one (report/baseline_view.h), or null
 ///   sequences  of trained inferences (report/sequence_view.h)
+///   trainings  of models (report/training_view.h)
 ///   jobs       [{name, exemplar, method, kind, seed, width, height, status, error, seconds,
 ///                peak_memory_mb, settings, metrics, score_error, copy_map, machine,
 ///                origin {config, set, threads, edited: whether the config has changed since},

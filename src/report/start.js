@@ -122,6 +122,7 @@ drawGlossary();
 parts.push(drawRows, drawTable, drawPlots);
 drawChanges();
 drawSequences();
+drawTrainings();
 update();
 drawPicks();
 startKeys();

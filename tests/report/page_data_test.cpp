@@ -197,6 +197,29 @@ TEST_F(PageData, JobsThatDidNotComeOutHaveTheirPlace) {
   EXPECT_THAT(page.trouble, testing::ElementsAre(HasSubstr("e/lost/seed1.png")));
 }
 
+TEST_F(PageData, ATrainingShowsItsSamplesInOrderAndItsLosses) {
+  write_run(Json::object());
+  EXPECT_EQ(read().at("trainings"), Json::array());
+  const fs::path models = path() / "models";
+  fs::create_directories(models);
+  write_text(models / "walls_small.safetensors", "not looked into");
+  write_text(models / "walls_small.csv",
+             "step,evaluations,seconds,loss\n1,1,0.5,3\n2,2,1,2\n3,3,1.5,1\n");
+  for (const char* name : {"walls_small_held_out.png", "walls_small_001000.png",
+                           "walls_small_000200.png", "walls_small_notes.png"})
+    write_image(models / name, Image(5, 4, 3, 0.5f), {});
+  const Json training = read().at("trainings").at(0);
+  EXPECT_EQ(training.at("name"), "walls_small");
+  EXPECT_EQ(training.at("file"), "models/walls_small.safetensors");
+  EXPECT_EQ(training.at("trace").at("loss"), Json({3, 2, 1}));
+  EXPECT_EQ(training.at("trace_file"), "models/walls_small.csv");
+  ASSERT_EQ(training.at("samples").size(), 3u);
+  EXPECT_EQ(training.at("samples").at(0).at("step"), 200);
+  EXPECT_EQ(training.at("samples").at(1).at("file"), "models/walls_small_001000.png");
+  EXPECT_EQ(training.at("samples").at(2).at("step"), nullptr);
+  EXPECT_EQ(training.at("samples").at(2).at("width"), 5);
+}
+
 TEST_F(PageData, TheCommandOfAJobIsThatOfItsOwnRecord) {
   write_run({{"e/q/seed1", {{"status", "done"}}}, {"e/q/seed2", {{"status", "done"}}}},
             {{"config_text", "size = 4"}, {"set", {"size=9"}}, {"machine", {{"threads", 8}}}});
