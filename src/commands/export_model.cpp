@@ -6,6 +6,7 @@
 #include "io/models_folder.h"
 #include "io/text_file.h"
 #include "jobs/machine.h"
+#include "jobs/protected_files.h"
 #include "learnt/export_c.h"
 #include "learnt/export_glsl.h"
 #include "learnt/export_onnx.h"
@@ -54,6 +55,11 @@ void export_model(const ModelExport& work) {
   std::error_code ignored;
   if (fs::equivalent(find_model(work.model, ".safetensors", "model"), work.output, ignored))
     throw ConfigError("export {}: --output is the model itself", work.output.string());
+  try {
+    check_folder_of(work.output);
+  } catch (const Error& error) {
+    throw ConfigError("export: {}", error.what());
+  }
   const std::string program = fmt::format("gramloom {}", version());
   switch (work.target) {
     case ModelTarget::c:

@@ -20,6 +20,7 @@ void check_output_file(const ArrangeWork& work) {
   for (const fs::path& picture : work.pictures) read.push_back({picture, "is to be arranged"});
   try {
     stored_type(work.output.extension().string(), PixelType::uint8);
+    check_folder_of(work.output);
     check_replaced(work.output, ProtectedFiles(read), arranged_mark);
   } catch (const Error& error) {
     throw ConfigError("arrange: {}", error.what());

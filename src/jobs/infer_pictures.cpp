@@ -136,7 +136,10 @@ InferredFiles infer_pictures(const InferWork& work, const Control& control) {
     if (!work.poses.empty()) read.push_back({work.poses, "has the poses"});
     const ProtectedFiles inputs(read);
     for (const fs::path& picture : files) check_replaced(picture, inputs, inferred_mark);
-    if (files.front() != work.output) create_folder(work.output);
+    if (files.front() != work.output)
+      create_folder(work.output);
+    else
+      check_folder_of(work.output);
   } catch (const ConfigError& error) {
     throw ConfigError("infer: {}", error.what());
   } catch (const Error& error) {

@@ -162,7 +162,11 @@ std::vector<NamedRecord> finished_jobs(const Run& run, const JobGroup& jobs) {
   std::vector<NamedRecord> finished;
   for (const PlannedJob* planned : jobs) {
     const JobFiles files = job_files(run.options.output, planned->name);
-    auto record = find_record(files.record);
+    // What this run has just written must be there to read.
+    std::error_code ignored;
+    auto record = planned->selected && std::filesystem::exists(files.record, ignored)
+                      ? read_record(files.record)
+                      : find_record(files.record);
     if (is_finished(record, files.folder)) finished.push_back({planned->name, std::move(*record)});
   }
   return finished;

@@ -107,9 +107,7 @@ void check_output(const PreviewWork& work, const std::vector<TextureFiles>& text
   try {
     const int channels = work.params.background == Background::transparent ? 4 : 3;
     encoded_image(output.extension().string(), Image(1, 1, channels), {});
-    const fs::path folder = output.parent_path();
-    if (!folder.empty() && !fs::is_directory(folder))
-      throw Error("there is no folder {}", folder.string());
+    check_folder_of(output);
     if (fs::is_directory(output)) throw Error("is a folder");
     ProtectedFiles(read).check(output);
   } catch (const Error& error) {

@@ -25,6 +25,12 @@ bool is_there(const fs::path& file) {
   return fs::exists(fs::symlink_status(file, ignored));
 }
 
+void check_folder_of(const fs::path& file) {
+  const fs::path folder = file.parent_path();
+  if (std::error_code ignored; !folder.empty() && !fs::is_directory(folder, ignored))
+    throw Error("there is no folder {}", folder.string());
+}
+
 ProtectedFiles::ProtectedFiles(const std::vector<InputFile>& inputs) {
   for (const InputFile& input : inputs)
     if (const auto identity = identity_of(input.file)) inputs_.emplace(*identity, input);

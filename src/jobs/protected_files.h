@@ -16,6 +16,9 @@ namespace gramloom {
 /// Whether a file, or a link that may lead nowhere, has this name.
 bool is_there(const std::filesystem::path& file);
 
+/// Throws Error when the folder that `file` is to be written into is not there.
+void check_folder_of(const std::filesystem::path& file);
+
 /// Files that are read, each known by itself, whatever its names.
 class ProtectedFiles {
  public:

@@ -95,6 +95,8 @@ void settle_texture(RunState& state, const PlannedJob& planned, const TaskResult
   }
   const JobRecord& record = *result.record;
   count_outcome(state.summary, record.status);
+  if (record.status == Status::done && planned.job.exemplar)
+    state.made.insert(*planned.job.exemplar);
   const std::string text = outcome(planned, record);
   record.status == Status::failed ? bar.complaint(text) : bar.message(text);
   tell_notes(state, planned, record);
@@ -109,6 +111,8 @@ void settle_finished_before(RunState& state, const PlannedJob& planned, const Jo
 
 void settle_scores(RunState& state, const PlannedJob& planned, const TaskResult& result) {
   if (result.stopped) state.summary.unscored = true;
+  if (!result.error.empty())
+    complain(state, fmt::format("{}: not scored: {}", planned.name, result.error));
   if (result.stopped || !result.record) return;
   if (!result.record->score_error.empty())
     complain(state, fmt::format("{}: not scored: {}", planned.name, result.record->score_error));
@@ -125,7 +129,7 @@ void settle_diversity(RunState& state, const JobGroup& group, const TaskResult& 
   or_complain(state.run, [&] { state.log.keep_up(); });
 }
 
-bool wants_diversity(const RunState& state, const JobGroup& group) {
+bool wants_diversity(RunState& state, const JobGroup& group) {
   const Run& run = state.run;
   const Job& first = group.front()->job;
   const bool selected = std::any_of(group.begin(), group.end(),
@@ -137,10 +141,16 @@ bool wants_diversity(const RunState& state, const JobGroup& group) {
   if (run.options.shard && std::any_of(group.begin(), group.end(),
                                        [&](const auto* planned) { return is_open(run, *planned); }))
     return false;
-  const std::vector<NamedRecord> finished = finished_jobs(run, group);
-  if (finished.size() < 2) return false;
-  return !state.log.knows(diversity_of_records(exemplar_name(run.config, first),
-                                               run.config.methods[first.method].name, finished));
+  try {
+    const std::vector<NamedRecord> finished = finished_jobs(run, group);
+    if (finished.size() < 2) return false;
+    return !state.log.knows(diversity_of_records(exemplar_name(run.config, first),
+                                                 run.config.methods[first.method].name, finished));
+  } catch (const Error& error) {
+    complain(state,
+             fmt::format("{}: no diversity: {}", job_folder(run.config, first), error.what()));
+    return false;
+  }
 }
 
 void keep_exemplar(RunState& state, const Job& job, std::optional<std::size_t>& kept) {
@@ -150,10 +160,12 @@ void keep_exemplar(RunState& state, const Job& job, std::optional<std::size_t>& 
   const Request* request = nullptr;
   try {
     request = &request_of(run, job);
-  } catch (const std::exception&) {  // the job, which needs it too, says so
+  } catch (const std::exception& error) {  // the job, which needs it too, says so; or has it
+    state.unkept[*job.exemplar] = first_line(error.what());
     return;
   }
   kept = job.exemplar;
+  state.unkept.erase(*job.exemplar);
   const bool written = or_complain(run, [&] {
     const fs::path folder = run.options.output / exemplar_name(run.config, job);
     create_folder(folder);
@@ -164,6 +176,13 @@ void keep_exemplar(RunState& state, const Job& job, std::optional<std::size_t>& 
     write_exemplar(folder, *request, run.files);
   });
   if (!written) state.summary.lacking = true;
+}
+
+void tell_unkept(RunState& state) {
+  for (const auto& [exemplar, why] : state.unkept)
+    if (state.made.contains(exemplar))
+      complain(state, fmt::format("{}: not beside its results: {}",
+                                  state.run.config.exemplars[exemplar].name, why));
 }
 
 bool or_complain(const Run& run, const std::function<void()>& write) {

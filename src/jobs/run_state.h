@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 
@@ -15,7 +16,9 @@ struct RunState {
   Run& run;
   RunLog& log;
   RunSummary& summary;
-  std::set<std::string> noted = {};  // of notes in records, those that were told
+  std::set<std::string> noted = {};                // of notes in records, those that were told
+  std::set<std::size_t> made = {};                 // exemplars of which there is a texture
+  std::map<std::size_t, std::string> unkept = {};  // those that could not be kept, and why
 };
 
 /// The record of a job that --resume finds finished, and what an unfinished attempt left of it is
@@ -30,11 +33,14 @@ void settle_diversity(RunState& state, const JobGroup& group, const TaskResult& 
 
 /// Whether the seeds of a group are to be compared, now that no more of its textures will be made
 /// here. What a comparison that was killed has left is removed.
-bool wants_diversity(const RunState& state, const JobGroup& group);
+bool wants_diversity(RunState& state, const JobGroup& group);
 
 /// Puts the exemplar of a job beside its results, so that the folder tells the whole story wherever
 /// it goes; once for jobs of one exemplar that follow each other: `kept`.
 void keep_exemplar(RunState& state, const Job& job, std::optional<std::size_t>& kept);
+
+/// Says which exemplars of textures that were made are not there: the folder lacks them.
+void tell_unkept(RunState& state);
 
 /// Writing the run's own files may fail without harm to the jobs; whether it did not.
 bool or_complain(const Run& run, const std::function<void()>& write);

@@ -182,6 +182,7 @@ RunSummary run(const Config& config, const RunOptions& options, ProgressBar& bar
     do_side_by_side(state);
   else
     do_one_after_another(state, count);
+  tell_unkept(state);
   if (!or_complain(run, [&] { output.log->finish(); })) summary.lacking = true;
   if (options.group && !run.lost && !run.halted)
     or_complain(run, [&] { say_next(*options.group, std::nullopt); });

@@ -60,7 +60,11 @@ void make_texture(Run& run, const PlannedJob& planned, bool waited, TaskResult& 
 }
 
 void score(Run& run, const PlannedJob& planned, TaskResult& result) {
-  result.record = find_record(job_files(run.options.output, planned.name).record);
+  try {
+    result.record = read_record(job_files(run.options.output, planned.name).record);
+  } catch (const Error& error) {
+    result.error = first_line(error.what());
+  }
   if (result.record && lacks_scores(run, planned, *result.record))
     result.stopped = !score_job(run, planned, *result.record);
 }
@@ -70,10 +74,10 @@ void compare_seeds(Run& run, const JobGroup& group, TaskResult& result) {
   const Job& first = group.front()->job;
   const std::string exemplar = exemplar_name(run.config, first);
   const std::string& method = run.config.methods[first.method].name;
-  const std::vector<NamedRecord> finished = finished_jobs(run, group);
-  if (finished.size() < 2) return;
   const NothingToKeep scope;
   try {
+    const std::vector<NamedRecord> finished = finished_jobs(run, group);
+    if (finished.size() < 2) return;
     SeedDiversity diversity = diversity_of_records(exemplar, method, finished);
     diversity.value = diversity_of(run, first, finished);
     write_format(diversity_file(run.options.output, exemplar, method), diversity);

@@ -93,8 +93,7 @@ std::string parameter_text(const Method& method, std::string_view key) {
 }
 
 void check_result(const fs::path& output, const Config& config, const std::string& mark) {
-  const fs::path folder = fs::absolute(output).parent_path();
-  if (!fs::is_directory(folder)) throw Error("there is no folder {}", folder.string());
+  check_folder_of(output);
   check_replaced(output, ProtectedFiles(input_files(config)), mark);
 }
 

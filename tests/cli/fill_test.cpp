@@ -90,6 +90,7 @@ TEST_F(FillCommand, CoordinatesArrangeTheSamePictureAgain) {
   EXPECT_EQ(run({"arrange", coordinates, "e.png", "--output", "a.jpg"}).exit_code, 2);
   EXPECT_EQ(run({"arrange", "e.png", "e.png", "--output", "a.png"}).exit_code, 2);
   EXPECT_EQ(run({"arrange", coordinates, "e.png", "--output", "e.png"}).exit_code, 2);
+  EXPECT_EQ(run({"arrange", coordinates, "e.png", "--output", "none/a.png"}).exit_code, 2);
 }
 
 TEST_F(FillCommand, ARunResumesAndKeepsWhatItWasAsked) {

@@ -33,6 +33,19 @@ class Inputs : public Workspace {
   }
 };
 
+TEST_F(Inputs, AFolderThatIsNotThereIsToldBeforeTheWork) {
+  const std::vector<std::vector<std::string>> commands{
+      {"export", "pebbles", "--target", "c", "--output", "none/a.c"},
+      {"make", "e.png", "--kind", "histogram", "--size", "16", "--output", "none/a.png"},
+      {"preview", "e.png", "--output", "none/a.png"}};
+  for (const auto& words : commands) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.exit_code, 2) << words.front();
+    EXPECT_THAT(outcome.errors, testing::HasSubstr("there is no folder")) << words.front();
+    EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+  }
+}
+
 TEST_F(Inputs, AnExemplarInTheOutputFolder) {
   fs::create_directories(folder_ / "brick");
   fs::create_directories(folder_ / "pebbles");
