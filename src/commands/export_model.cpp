@@ -58,7 +58,7 @@ void export_model(const ModelExport& work) {
   try {
     check_folder_of(work.output);
   } catch (const Error& error) {
-    throw ConfigError("export: {}", error.what());
+    throw ConfigError("export {}: {}", work.output.string(), error.what());
   }
   const std::string program = fmt::format("gramloom {}", version());
   switch (work.target) {

@@ -44,10 +44,21 @@ bool is_grey(const Image& picture) {
   return true;
 }
 
+// As painting programs save it: with coverage, unless that is what the last material's channel is.
+Image read_weights(const std::filesystem::path& file, int materials) {
+  ImageFile read = read_image(file);
+  const auto& names = read.encoding.channel_names;
+  const int channels = read.image.channels;
+  const bool is_material = channels == materials && materials > 2;  // two share a grey one
+  if (is_material || channels < 2 || names.empty() || names.back() != "A")
+    return std::move(read.image);
+  return extract_channels(read.image, 0, channels - 1);
+}
+
 // A channel a material, 1 in all, of a picture.
 Image share_map_of(const GeneratorParams& params, int materials) {
   if (!params.weights.empty()) throw ConfigError("weights and weight_picture exclude each other");
-  const Image picture = read_image(params.weight_picture).image;
+  const Image picture = read_weights(params.weight_picture, materials);
   const bool between = materials == 2 && (picture.channels == 1 || is_grey(picture));
   if (!between && (picture.channels != materials || materials == 2))
     throw ConfigError(

@@ -10,7 +10,7 @@ namespace gramloom {
 namespace {
 
 constexpr int reach_in_blends = 6;  // of a shift, in blends: e⁻⁶ of it is left there
-constexpr float enough = 1e-5f;     // the largest change of a sweep that ends them
+constexpr float enough = 1e-5f;     // of the largest pull: a sweep that changes no more is the last
 /// At most: each leaves about 1 − 1.4 / blend of the error.
 constexpr int most_sweeps(int blend) { return 20 + 8 * blend; }
 

@@ -7,6 +7,8 @@
 
 #include "core/error.h"
 #include "core/threads.h"
+#include "io/image_file.h"
+#include "io/temp_folder.h"
 #include "learnt/level_axis.h"
 #include "learnt/noise.h"
 #include "learnt/some_generator.h"
@@ -243,6 +245,25 @@ TEST(Generator, RefusesWeightsThatDoNotFit) {
                        testing::HasSubstr("3 numbers are given, the model has 2 materials")));
   params.weights = {0, 0};
   EXPECT_THAT(ask, testing::ThrowsMessage<ConfigError>(testing::HasSubstr("all are 0")));
+}
+
+class WeightPicture : public TempFolder {};
+
+TEST_F(WeightPicture, MayHaveCoverageBesideItsWeights) {
+  GeneratorParams params;
+  params.weight_picture = path("w.png");
+  const auto shares = [&](int materials, const std::vector<float>& pixel) {
+    Image picture(1, 1, static_cast<int>(pixel.size()));
+    picture.pixels = pixel;
+    write_image(params.weight_picture, picture, {});
+    return generation_of(params, model_of_three_levels(materials).description, {16, 16}, Tile::none,
+                         Random(1))
+        .share_map.pixels;
+  };
+  EXPECT_EQ(shares(2, {1, 0}), (std::vector<float>{0, 1}));           // grey, transparent
+  EXPECT_EQ(shares(2, {1, 1, 1, 0}), (std::vector<float>{0, 1}));     // likewise in colours
+  EXPECT_EQ(shares(3, {0, 1, 0, 1}), (std::vector<float>{0, 1, 0}));  // a channel a material
+  EXPECT_EQ(shares(4, {0, 0, 0, 1}), (std::vector<float>{0, 0, 0, 1}));
 }
 
 TEST(LevelAxis, WhatWrapsIsTheSameToTheLastBit) {
