@@ -70,8 +70,8 @@ Command add_fill(CLI::App& program) {
       ->type_name("L,T,R,B");
   command
       ->add_option("--blend", work.blend,
-                   "within which colours that are copied go over into what stays; 4; 0: they stay "
-                   "copies")
+                   "how far from what stays colours that are copied are fitted to it; 4; 0: they "
+                   "stay copies")
       ->check(CLI::Range(0, 16))
       ->type_name("PIXELS");
   add_repeated(*command, "--from", arguments->from,

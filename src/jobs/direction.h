@@ -123,9 +123,8 @@ struct FillEntry {
               {0, longest_side}},
         Field{"blend",
               &F::blend,
-              "within which colours and heights that are copied (by quilting, patchmatch or pixel) "
-              "go over into what stays; 0: they "
-              "stay copies",
+              "how far from what stays the colours and heights that quilting, patchmatch and pixel "
+              "copy are fitted to it; 0: they stay copies",
               "pixels",
               {0, 16}},
     };
