@@ -8,27 +8,6 @@
 
 namespace gramloom {
 
-namespace {
-
-// Whether the exemplar is the picture that is filled: by some of its rows.
-bool is_filled(const Exemplar& exemplar, const Target& target) {
-  constexpr int every = 16;
-  if (target.known.empty() || exemplar.image.size() != target.size) return false;
-  bool any = false;
-  for (int y = 0; y < target.size.height; y += std::min(every, 1 + target.size.height / 64))
-    for (int x = 0; x < target.size.width; ++x) {
-      if (*target.mask.at(x, y) > 0.5f) continue;
-      if (!exemplar.mask.empty() && *exemplar.mask.at(x, y) <= 0.5f) continue;
-      any = true;
-      if (!std::equal(target.known.at(x, y), target.known.at(x, y) + target.known.channels,
-                      exemplar.image.at(x, y)))
-        return false;
-    }
-  return any;
-}
-
-}  // namespace
-
 RequestSize size_of(const Request& request) {
   RequestSize result;
   for (const Exemplar& exemplar : request.exemplars)
@@ -43,7 +22,8 @@ RequestSize size_of(const Request& request) {
     result.around = box.size();
     for (std::size_t i = 0; i < request.exemplars.size(); ++i) {
       ExemplarSize& exemplar = result.exemplars[i];
-      exemplar.filled = is_filled(request.exemplars[i], target);
+      exemplar.filled =  // some rows tell
+          is_filled(request.exemplars[i], target, std::min(16, 1 + target.size.height / 64));
       if (exemplar.filled && !has_enough(request.exemplars[i].mask, box)) result.around = {};
     }
   }

@@ -1,6 +1,7 @@
 #include "core/surroundings.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace gramloom {
 
@@ -34,6 +35,20 @@ bool has_enough(const Image& mask, const Box& box) {
     usable += std::count_if(mask.at(box.left, y), mask.at(box.left, y) + (box.right - box.left),
                             [](float m) { return m > 0.5f; });
   return 4.0 * static_cast<double>(usable) >= area(box.size());
+}
+
+bool is_filled(const Exemplar& exemplar, const Target& target, int every) {
+  if (target.known.empty() || exemplar.image.size() != target.size) return false;
+  const std::size_t bytes = to_size(target.known.channels) * sizeof(float);
+  bool any = false;
+  for (int y = 0; y < target.size.height; y += every)
+    for (int x = 0; x < target.size.width; ++x) {
+      if (*target.mask.at(x, y) > 0.5f) continue;
+      if (!exemplar.mask.empty() && *exemplar.mask.at(x, y) <= 0.5f) continue;
+      any = true;
+      if (std::memcmp(target.known.at(x, y), exemplar.image.at(x, y), bytes) != 0) return false;
+    }
+  return any;
 }
 
 }  // namespace gramloom

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/image.h"
+#include "core/request.h"
 
 namespace gramloom {
 
@@ -22,5 +22,9 @@ Box with_surroundings(const Box& holes, Size picture);
 /// Whether at least a quarter of a box may be used, by such a mask (empty: all may): of less a fill
 /// cannot be made.
 bool has_enough(const Image& mask, const Box& box);
+
+/// Whether the exemplar is the picture that is filled: every known pixel is its own at the same
+/// place, as far as that may be used. Of rows, each `every`th is looked at.
+bool is_filled(const Exemplar& exemplar, const Target& target, int every = 1);
 
 }  // namespace gramloom

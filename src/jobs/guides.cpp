@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "io/without_alpha.h"
 #include "jobs/loaded_request.h"
 #include "jobs/picture_files.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/without_alpha.h"
 #include "jobs/agree_on_alpha.h"
 #include "jobs/filling.h"
 #include "jobs/guides.h"

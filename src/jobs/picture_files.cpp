@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/without_alpha.h"
+
 namespace gramloom {
 
 namespace {
@@ -139,13 +141,6 @@ Image joined(PictureFiles picture) {
       for (const Image& part : picture.images) to = std::copy_n(part.at(x, y), part.channels, to);
     }
   return image;
-}
-
-Image without_alpha(ImageFile picture) {
-  const std::vector<std::string>& names = picture.encoding.channel_names;
-  if (picture.image.channels < 2 || names.empty() || names.back() != "A")
-    return std::move(picture.image);
-  return extract_channels(picture.image, 0, picture.image.channels - 1);
 }
 
 Image brightness(ImageFile file) {

@@ -39,10 +39,7 @@ Image read_mask(const FileOrName& mask, const PictureFiles& picture, const std::
 ImageFile read_sized(const std::filesystem::path& file, Size size, const std::string& what,
                      const std::string& of, const std::string& place);
 
-/// The channels but for alpha: a last one that is called "A".
-Image without_alpha(ImageFile picture);
-
-/// Mean of those, one channel.
+/// Mean of the channels but for alpha, one channel.
 Image brightness(ImageFile picture);
 
 }  // namespace gramloom

@@ -7,6 +7,7 @@
 #include "core/modules.h"
 #include "io/image_file.h"
 #include "io/models_folder.h"
+#include "io/without_alpha.h"
 #include "learnt/learnt_module.h"
 
 namespace gramloom {
@@ -47,12 +48,8 @@ bool is_grey(const Image& picture) {
 // As painting programs save it: with coverage, unless that is what the last material's channel is.
 Image read_weights(const std::filesystem::path& file, int materials) {
   ImageFile read = read_image(file);
-  const auto& names = read.encoding.channel_names;
-  const int channels = read.image.channels;
-  const bool is_material = channels == materials && materials > 2;  // two share a grey one
-  if (is_material || channels < 2 || names.empty() || names.back() != "A")
-    return std::move(read.image);
-  return extract_channels(read.image, 0, channels - 1);
+  const bool of_materials = read.image.channels == materials && materials > 2;  // two share a grey
+  return of_materials ? std::move(read.image) : without_alpha(std::move(read));
 }
 
 // A channel a material, 1 in all, of a picture.

@@ -74,6 +74,7 @@ Size canvas_size(const NeuralParams& params, const Target& target) {
 }
 
 bool fills_window(const NeuralParams& params, const RequestSize& request) {
+  constexpr double most_of_window = 0.7;  // of the picture
   return request.known && params.start.empty() && params.levels == 0 && area(request.around) > 0 &&
          area(request.around) <= most_of_window * area(request.size);
 }

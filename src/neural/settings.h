@@ -36,8 +36,6 @@ Size canvas_size(const NeuralParams& params, const Target& target);
 /// that is less than most of it. A picture to start from is of the whole, and so many levels as are
 /// asked for may need it.
 bool fills_window(const NeuralParams& params, const RequestSize& request);
-/// Of the picture.
-inline constexpr double most_of_window = 0.7;
 /// Whether several processes share the picture of a level, each its rows. A small one each makes
 /// alone, and so the same: of the others a step compares a random part of the patches
 /// (loss/sliced.h), which is the same however it is shared.

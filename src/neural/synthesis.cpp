@@ -461,17 +461,15 @@ Texture run_synthesis(const NeuralParams& asked, const Request& request, const C
   start_openmp();
   const RequestSize size = size_of(request);
   const NeuralParams params = directed_settings(asked, size, has_one_mix(request.target));
-  std::optional<FillWindow> window;
-  if (group.alone() && fills_window(params, size))
-    window = window_about_holes(request, most_of_window);
-  if (!window) return synthesise_whole(params, request, control, group);
+  if (!group.alone() || !fills_window(params, size))
+    return synthesise_whole(params, request, control, group);
+  const FillWindow window = window_about_holes(request.target);
   return fill_by_windows(
-      request, {*window},
+      request, {window},
       [&](const Request& part, const Control& own) {
         Texture texture = synthesise_whole(params, part, own, group);
         // Stopped on a coarse level, it has that level's size.
-        if (texture.image.size() != window->size)
-          texture.image = resize(texture.image, window->size);
+        if (texture.image.size() != window.size) texture.image = resize(texture.image, window.size);
         return texture;
       },
       control);

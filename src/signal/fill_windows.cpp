@@ -1,7 +1,6 @@
 #include "signal/fill_windows.h"
 
 #include <algorithm>
-#include <cstring>
 #include <mutex>
 #include <opencv2/imgproc.hpp>
 #include <utility>
@@ -75,22 +74,8 @@ SourceMap own_sources(Size size, std::optional<std::size_t> same) {
 }  // namespace
 
 std::optional<std::size_t> same_picture(const Request& request) {
-  const Target& target = request.target;
-  if (target.known.empty()) return std::nullopt;
-  const auto channels = static_cast<std::size_t>(target.known.channels);
-  for (std::size_t e = 0; e < request.exemplars.size(); ++e) {
-    const Exemplar& exemplar = request.exemplars[e];
-    if (exemplar.image.size() != target.size) continue;
-    bool same = true, any = false;
-    for (std::size_t i = 0; i < target.mask.pixels.size() && same; ++i) {
-      if (target.mask.pixels[i] > 0.5f) continue;
-      if (!exemplar.mask.empty() && exemplar.mask.pixels[i] <= 0.5f) continue;
-      any = true;
-      same = std::memcmp(&target.known.pixels[i * channels], &exemplar.image.pixels[i * channels],
-                         channels * sizeof(float)) == 0;
-    }
-    if (same && any) return e;
-  }
+  for (std::size_t e = 0; e < request.exemplars.size(); ++e)
+    if (is_filled(request.exemplars[e], request.target)) return e;
   return std::nullopt;
 }
 
@@ -129,15 +114,9 @@ std::vector<FillWindow> fill_windows(const Request& request, double most) {
   return windows;
 }
 
-std::optional<FillWindow> window_about_holes(const Request& request, double most) {
-  const Target& target = request.target;
-  if (target.known.empty() || target.mask.empty() || target.tile != Tile::none) return std::nullopt;
-  const Box box = with_surroundings(box_of(target.mask), target.size);
-  if (area(box.size()) > most * area(target.size)) return std::nullopt;
-  const auto same = same_picture(request);
-  if (same && !has_enough(request.exemplars[*same].mask, box)) return std::nullopt;
+FillWindow window_about_holes(const Target& target) {
   FillWindow window;
-  place(window, box);
+  place(window, with_surroundings(box_of(target.mask), target.size));
   for (std::size_t i = 0; i < target.mask.pixels.size(); ++i)
     if (target.mask.pixels[i] > 0.5f) window.made.push_back(i);
   return window;

@@ -25,9 +25,9 @@ struct FillWindow {
 /// together they would be more than `most` times the picture: they overlap.
 std::vector<FillWindow> fill_windows(const Request& request, double most);
 
-/// One window about all holes of a fill, for a method that takes them all together. None where
-/// edges meet, or where it would be more than `most` times the picture.
-std::optional<FillWindow> window_about_holes(const Request& request, double most);
+/// One window about all holes of a fill, for a method that takes them all together
+/// (RequestSize::around says whether it can).
+FillWindow window_about_holes(const Target& target);
 
 /// Fills each window by itself, in parallel, and the whole with them. `fill`: the method, which
 /// reports to its control; of a single window that is the caller's, of several nobody's, as then

@@ -30,9 +30,9 @@ Size smallest_of(const std::vector<Image>& exemplars) {
   return size;
 }
 
-// Patches of a level, and what its discriminator sees, need some room.
-int needed_side(const GeneratorRecipe& recipe, int level) {
-  return 2 * std::max(recipe.patch_size.front(), 2 * at_level(recipe.adversary_layers, level) + 1);
+// Patches of the coarsest level, and what its discriminator sees, need some room.
+int coarsest_needed(const GeneratorRecipe& recipe) {
+  return 2 * std::max(recipe.patch_size.front(), 2 * recipe.adversary_layers.front() + 1);
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ void check_recipe(const GeneratorRecipe& recipe) {
 std::vector<GeneratorLevel> levels_of(const GeneratorRecipe& recipe, Size smallest) {
   const double side = std::min(smallest.width, smallest.height);
   int finer = std::max(0, static_cast<int>(std::lround(std::log2(side / recipe.coarsest_side))));
-  while (finer > 0 && static_cast<int>(side) >> finer < needed_side(recipe, 0)) --finer;
+  while (finer > 0 && static_cast<int>(side) >> finer < coarsest_needed(recipe)) --finer;
   std::vector<GeneratorLevel> levels;
   for (int k = 0; k <= std::min(finer, 7); ++k)
     levels.push_back(
@@ -53,13 +53,17 @@ std::vector<GeneratorLevel> levels_of(const GeneratorRecipe& recipe, Size smalle
   return levels;
 }
 
+namespace {
+
+// Throws ConfigError for what would only fail once coarser levels are trained.
 void check_lesson(const GeneratorLesson& lesson) {
   const GeneratorRecipe& recipe = lesson.recipe;
   check_recipe(recipe);
   const Size smallest = smallest_of(lesson.exemplars);
   const int side = std::min(smallest.width, smallest.height);
   const int levels = static_cast<int>(levels_of(recipe, smallest).size());
-  if (const int coarsest = side >> (levels - 1), needed = needed_side(recipe, 0); coarsest < needed)
+  if (const int coarsest = side >> (levels - 1), needed = coarsest_needed(recipe);
+      coarsest < needed)
     throw ConfigError("the exemplar is too small: it has a side of {} pixels, needed are {}",
                       coarsest, needed);
   if (at_level(recipe.steps, levels - 1) == 0)
@@ -74,6 +78,8 @@ void check_lesson(const GeneratorLesson& lesson) {
           crop, k + 1, patch, layers, needed);
   }
 }
+
+}  // namespace
 
 GeneratorModel train_generator(const GeneratorLesson& lesson, const Control& control,
                                const Judge& judge) {
