@@ -1,5 +1,7 @@
 #include "classic/patchmatch.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -161,6 +163,7 @@ Texture synthesise(const PatchmatchParams& params, const Request& request, const
   field = {};
   canvas = {};
   levels.clear();
+  malloc_trim(0);  // or what was theirs stays with the process
   return texture_of(sources_of(pixels, size, target.size, exemplar.size()), request.exemplars);
 }
 

@@ -42,7 +42,7 @@ OIIO::ImageBuf reoriented(const OIIO::ImageBuf& image, int orientation) {
 
 }  // namespace
 
-Image pictures::turn(const Image& image, int orientation) {
+Image pictures::turn(Image image, int orientation) {
   if (orientation < 2 || orientation > 8) return image;
   const OIIO::ImageBuf turned = reoriented(view(image, spec_of(image)), orientation);
   Image result(turned.spec().width, turned.spec().height, image.channels);

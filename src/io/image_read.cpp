@@ -254,7 +254,7 @@ ImageFile read_open(OIIO::ImageInput& input) {
   }
   const int orientation = spec.get_int_attribute("Orientation", 1);
   take_resolution(spec, orientation, file.metadata);
-  file.image = pictures::turn(file.image, orientation);
+  file.image = pictures::turn(std::move(file.image), orientation);
   return file;
 }
 

@@ -3,8 +3,11 @@
 #include <OpenImageIO/filesystem.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <cmath>
-#include <cstdio>
+#include <cstring>
+#include <string_view>
 
 #include "core/error.h"
 #include "io/image_format.h"
@@ -19,8 +22,47 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct CloseStream {
-  void operator()(FILE* stream) const { std::fclose(stream); }
+// Keeps to itself that it could not write, and why: some of OpenImageIO's writers do not look, and
+// of others the library below ends the process, or throws where nothing may be thrown.
+class WatchedFile : public OIIO::Filesystem::IOProxy {
+ public:
+  explicit WatchedFile(int descriptor) : IOProxy("", Write), descriptor_(descriptor) {}
+  // Of a "file", OpenImageIO would give libjpeg the stream.
+  const char* proxytype() const override { return "watched"; }
+  bool seek(std::int64_t offset) override {
+    send();
+    m_pos = offset;
+    return true;
+  }
+  std::size_t write(const void* bytes, std::size_t size) override {
+    constexpr std::size_t enough = 1 << 20;
+    waiting_.append(static_cast<const char*>(bytes), size);
+    m_pos += static_cast<std::int64_t>(size);
+    size_ = std::max(size_, static_cast<std::size_t>(m_pos));
+    if (waiting_.size() >= enough) send();
+    return size;
+  }
+  std::size_t size() const override { return size_; }
+
+  // To the disk, what was written since the last time.
+  void send() {
+    std::int64_t at = m_pos - std::ssize(waiting_);
+    for (std::string_view left = waiting_; !left.empty() && error_ == 0;) {
+      const ssize_t count = ::pwrite(descriptor_, left.data(), left.size(), at);
+      if (count < 0 && errno != EINTR) error_ = errno;
+      if (count <= 0) continue;
+      left.remove_prefix(static_cast<std::size_t>(count));
+      at += count;
+    }
+    waiting_.clear();
+  }
+  int error() const { return error_; }
+
+ private:
+  int descriptor_;
+  std::string waiting_;
+  std::size_t size_ = 0;
+  int error_ = 0;
 };
 
 class RowsToFile : public ImageRows {
@@ -36,10 +78,7 @@ class RowsToFile : public ImageRows {
     stored_ = stored_type(format, encoding.pixel_type);
     note_coarser_type(format, encoding.pixel_type, stored_, notes_);
     file_ = std::make_unique<ReplacingFile>(path_);
-    stream_.reset(fdopen(dup(file_->descriptor()), "wb"));
-    if (!stream_) throw Error("cannot write");
-    proxy_ =
-        std::make_unique<OIIO::Filesystem::IOFile>(stream_.get(), OIIO::Filesystem::IOProxy::Write);
+    proxy_ = std::make_unique<WatchedFile>(file_->descriptor());
     const QuietStderr quiet;
     check(output_->set_ioproxy(proxy_.get()) && output_->open("image" + extension, spec));
   }
@@ -66,8 +105,9 @@ class RowsToFile : public ImageRows {
 
   std::vector<std::string> finish() override {
     const QuietStderr quiet;
-    check(output_->close());
-    if (std::fclose(stream_.release()) != 0) throw Error("{}: cannot write", path_.string());
+    const bool closed = output_->close();
+    proxy_->send();
+    check(closed);
     file_->commit();
     note_clamped(clamped_, stored_, notes_);
     return notes_;
@@ -82,6 +122,8 @@ class RowsToFile : public ImageRows {
     next_row_ += count;
   }
   void check(bool done) const {
+    if (proxy_->error() != 0)
+      throw Error("{}: cannot write: {}", path_.string(), std::strerror(proxy_->error()));
     if (!done) throw Error("{}: cannot be encoded: {}", path_.string(), output_->geterror());
   }
 
@@ -92,8 +134,7 @@ class RowsToFile : public ImageRows {
   std::vector<std::string> notes_;
   int next_row_ = 0;
   std::unique_ptr<ReplacingFile> file_;
-  std::unique_ptr<FILE, CloseStream> stream_;
-  std::unique_ptr<OIIO::Filesystem::IOFile> proxy_;
+  std::unique_ptr<WatchedFile> proxy_;
   std::unique_ptr<OIIO::ImageOutput> output_;
 };
 

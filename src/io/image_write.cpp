@@ -1,5 +1,7 @@
 #include <OpenImageIO/filesystem.h>
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "io/check_finite.h"
 #include "io/image_file.h"
@@ -14,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// In memory, so that one place (write_text) looks after full disks and half-written files.
 std::string encode(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec, const Image& image,
                    const std::string& extension) {
   const QuietStderr quiet;
@@ -30,55 +31,76 @@ std::string encode(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec, const
 
 /// Colours and alpha stay as they are; but other programs expect of each format the one or the
 /// other.
-void note_other_alpha(const Format& format, const OIIO::ImageSpec& spec, const Image& image,
-                      bool premultiplied, std::vector<std::string>& notes) {
-  if (spec.alpha_channel < 0 || format.name == "tiff" ||
-      premultiplied == (format.name == "openexr"))
+void note_other_alpha(const std::string& extension, const Image& image, const Encoding& encoding,
+                      std::vector<std::string>& notes) {
+  const auto output = writer_for(extension);
+  const Format& format = format_of(output.get(), extension);
+  const int alpha = make_spec(format, image.size(), image.channels, encoding, {}).alpha_channel;
+  if (alpha < 0 || format.name == "tiff" || encoding.premultiplied == (format.name == "openexr"))
     return;
   const auto channels = static_cast<std::size_t>(image.channels);
-  for (auto i = static_cast<std::size_t>(spec.alpha_channel); i < image.pixels.size();
-       i += channels)
+  for (auto i = static_cast<std::size_t>(alpha); i < image.pixels.size(); i += channels)
     if (image.pixels[i] != 1) {
       notes.push_back(
           fmt::format("colours are {}multiplied by alpha, which is unusual in a {} file",
-                      premultiplied ? "" : "not ", format.name));
+                      encoding.premultiplied ? "" : "not ", format.name));
       return;
     }
+}
+
+// By some rows at once, enough for the threads of a library: of a large picture, the values as the
+// file stores them and the file itself would be in memory beside it.
+std::vector<std::string> write_file(const fs::path& path, const Image& image,
+                                    const Encoding& encoding, const Metadata& metadata) {
+  const auto file = pictures::open_rows(path, image.size(), image.channels, encoding, metadata);
+  constexpr int values_at_once = 1 << 22, least = 64;
+  const int at_once =
+      std::max(least, values_at_once / image.width / image.channels / least * least);
+  for (int y = 0; y < image.height; y += at_once)
+    file->write(image.at(0, y), std::min(at_once, image.height - y));
+  return file->finish();
+}
+
+// From the beginning to the end, while writers of some formats go back.
+std::vector<std::string> write_device(const fs::path& path, const Image& image,
+                                      const Encoding& encoding, const Metadata& metadata) {
+  const std::string extension = path.extension().string();
+  std::vector<std::string> notes;
+  const auto output = writer_for(extension);
+  const Format& format = format_of(output.get(), extension);
+  const PixelType stored = gramloom::stored_type(format, encoding.pixel_type);
+  note_coarser_type(format, encoding.pixel_type, stored, notes);
+  Clamped clamped;
+  count_clamped(image.pixels.data(), image.pixels.size(), stored, clamped);
+  note_clamped(clamped, stored, notes);
+  Image held = image;
+  if (stored == PixelType::half) clamp_to_half(held.pixels);
+  write_text(path,
+             encode(*output, make_spec(format, image.size(), image.channels, encoding, metadata),
+                    held, extension));
+  return notes;
 }
 
 }  // namespace
 
 std::vector<std::string> pictures::write(const fs::path& path, const Image& image,
                                          const Encoding& encoding, const Metadata& metadata) {
-  const std::string extension = path.extension().string();
-  std::vector<std::string> notes;
-  std::string bytes;
   try {
     check_finite(image);
-    const auto output = writer_for(extension);
-    const Format& format = format_of(output.get(), extension);
-    const OIIO::ImageSpec spec =
-        make_spec(format, image.size(), image.channels, encoding, metadata);
-    const PixelType stored = gramloom::stored_type(format, encoding.pixel_type);
-    note_coarser_type(format, encoding.pixel_type, stored, notes);
-    note_other_alpha(format, spec, image, encoding.premultiplied, notes);
-    Clamped clamped;
-    count_clamped(image.pixels.data(), image.pixels.size(), stored, clamped);
-    note_clamped(clamped, stored, notes);
-    if (clamped.beyond > 0 && stored == PixelType::half) {
-      Image held = image;
-      clamp_to_half(held.pixels);
-      bytes = encode(*output, spec, held, extension);
-    } else {
-      bytes = encode(*output, spec, image, extension);
-    }
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    const bool is_file = !fs::exists(status) || fs::is_regular_file(status);
+    std::vector<std::string> notes =
+        (is_file ? write_file : write_device)(path, image, encoding, metadata);
+    note_other_alpha(path.extension().string(), image, encoding, notes);
+    return notes;
   } catch (const std::bad_alloc&) {
     throw Error("{}: out of memory", path.string());
   } catch (const std::exception& error) {
-    throw Error("{}: {}", path.string(), message_of(error));
+    const std::string message = message_of(error);
+    if (message.starts_with(path.string() + ":")) throw Error("{}", message);
+    throw Error("{}: {}", path.string(), message);
   }
-  write_text(path, bytes);
-  return notes;
 }
 
 std::string pictures::encoded(const std::string& extension, const Image& image,

@@ -43,7 +43,7 @@ std::unique_ptr<ImageRows> open_rows(const std::filesystem::path& path, Size siz
 
 /// The picture turned and mirrored as the EXIF orientation (1 to 8; others change nothing) says
 /// that it is to be seen.
-Image turn(const Image& image, int orientation);
+Image turn(Image image, int orientation);
 }  // namespace pictures
 
 }  // namespace gramloom

@@ -91,27 +91,34 @@ bool is_harmless(int device) {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-std::string read_text(const fs::path& path) {
+void read_blocks(const fs::path& path, const std::function<void(std::string_view)>& use) {
   const File file(path, O_RDONLY);
   if (!file.is_open()) throw system_error(path, "read");
   // A terminal or nothing may be read; other devices have no end, or wait for an event.
   if (S_ISBLK(file.mode()) || (S_ISCHR(file.mode()) && !is_harmless(file.descriptor())))
     throw Error("{}: cannot read: it is a device, not a file", path.string());
-  std::error_code ignored;
-  const auto size = fs::file_size(path, ignored);  // a pipe has none
-  std::string text;
-  if (!ignored) text.reserve(size);
   constexpr std::size_t most = std::size_t{64} << 20;  // of what has no length of its own
+  std::size_t all = 0;
   std::string buffer(std::size_t{1} << 20, '\0');
   for (;;) {
     const ssize_t count = read(file.descriptor(), buffer.data(), buffer.size());
     if (count < 0 && wait_for(file.descriptor(), POLLIN)) continue;
     if (count < 0) throw system_error(path, "read");
-    if (count == 0) return text;
-    text.append(buffer, 0, static_cast<std::size_t>(count));
-    if (text.size() > most && !S_ISREG(file.mode()))
+    if (count == 0) return;
+    use(std::string_view(buffer).substr(0, static_cast<std::size_t>(count)));
+    all += static_cast<std::size_t>(count);
+    if (all > most && !S_ISREG(file.mode()))
       throw Error("{}: cannot read: more than {} MB come out of it", path.string(), most >> 20);
   }
+}
+
+std::string read_text(const fs::path& path) {
+  std::string text;
+  std::error_code ignored;
+  const auto size = fs::file_size(path, ignored);  // a pipe has none
+  if (!ignored) text.reserve(size);
+  read_blocks(path, [&](std::string_view block) { text.append(block); });
+  return text;
 }
 
 void write_text(const fs::path& path, std::string_view text) {

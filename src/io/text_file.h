@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -10,13 +11,18 @@ namespace gramloom {
 /// to is empty. Throws Error with the path: missing, a folder, a device, unreadable.
 std::string read_text(const std::filesystem::path& path);
 
+/// The same, a piece of at most a megabyte after the other.
+void read_blocks(const std::filesystem::path& path,
+                 const std::function<void(std::string_view)>& use);
+
 /// The first line of a message: libraries like to add a stack trace.
 std::string first_line(const std::string& text);
 
 /// Writes `text` (any bytes) to `path`, complete or not at all: a temporary file in the same folder
 /// (".NAME.PID.COUNT.tmp", gone afterwards whatever happens short of SIGKILL) is written, flushed
 /// to the disk and renamed, so a reader sees the old file or the new one. A device or pipe
-/// (/dev/stdout) is written directly. Every file of gramloom is written through here.
+/// (/dev/stdout) is written directly. Every file of gramloom but
+/// pictures, which grow row by row (image_rows.h), is written through here.
 /// Throws Error with the path: no such folder, not writable, disk full, a folder of that name.
 void write_text(const std::filesystem::path& path, std::string_view text);
 

@@ -20,7 +20,11 @@ bool same_state(const struct stat& a, const struct stat& b) {
 
 }  // namespace
 
-std::string file_hash(const fs::path& path) { return hash_of(read_text(path)); }
+std::string file_hash(const fs::path& path) {
+  Fnv1a hash;
+  read_blocks(path, [&](std::string_view block) { hash.add(block); });
+  return hash.text();
+}
 
 std::string FileHashes::of(const fs::path& path) {
   struct stat state {};

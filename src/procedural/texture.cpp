@@ -140,7 +140,7 @@ Cost estimate(const ProceduralParams& params, const RequestSize& request) {
   synthesise(one, {{}, {{1, 1}, Tile::none}, Random(0)}, {});
   const double pixels = static_cast<double>(request.size.width) * request.size.height;
   const double samples = pixels * params.samples * params.samples * params.frames;
-  const double images = 5 + params.frames;  // colour, maps, and what light_relief works with
+  const double images = 1 + params.frames;  // colours, and maps or what they are lit by
   return {pixels * 3 * sizeof(float) * images, {.shared = samples * 1.5e-7}};
 }
 

@@ -41,11 +41,12 @@ std::string data_url(const std::string& extension, std::string_view bytes) {
                      base64(bytes));
 }
 
-Image reduced(Image image) { return fit_longer_side(image, most_pixels); }
+Image reduced(const Image& image) { return fit_longer_side(image, most_pixels); }
 
-// 8-bit sRGB, without alpha.
-std::string colour_url(const ImageFile& file, double white) {
-  Image shown = reduced(preview(file, white));
+// 8-bit sRGB, without alpha. Made small first: the picture may be a large one.
+std::string colour_url(ImageFile file, double white) {
+  file.image = reduced(file.image);
+  Image shown = preview(file, white);
   if (shown.channels == 2 || shown.channels == 4)
     shown = extract_channels(shown, 0, shown.channels - 1);
   return data_url(".jpg", encoded_image(".jpg", shown, {}));
@@ -84,13 +85,13 @@ Json maps_of(const fs::path& folder, const SurfaceView& view, double& strength) 
       maps[name] = data_url(path.extension().string(), read_text(path));
       continue;
     }
-    const ImageFile picture = read_image(path);
+    ImageFile picture = read_image(path);
     if (name == "height") {
       const PackedHeight height = pack_height(picture.image);
       maps[name] = height.url;
       strength *= height.strength / picture.image.width;
     } else if (name == "colour") {
-      maps[name] = colour_url(picture, view.white);
+      maps[name] = colour_url(std::move(picture), view.white);
     } else {
       const bool normals = name == "normal" && picture.image.channels >= 3;
       const Image map = normals ? as_colours(extract_channels(picture.image, 0, 3))

@@ -10,8 +10,11 @@ Image filtered_in_groups(const Image& image, Size size,
   Image result(size, image.channels);
   for (int first = 0; first < image.channels; first += group) {
     const int count = std::min(group, image.channels - first);
-    Image part = extract_channels(image, first, count);
-    const cv::Mat from(part.height, part.width, CV_32FC(count), part.pixels.data());
+    Image part;
+    if (count < image.channels) part = extract_channels(image, first, count);
+    const Image& some = part.empty() ? image : part;
+    const cv::Mat from(some.height, some.width, CV_32FC(count),
+                       const_cast<float*>(some.pixels.data()));  // which is only read
     cv::Mat to;
     filter(from, to);
     for (int y = 0; y < size.height; ++y)

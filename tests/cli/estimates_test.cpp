@@ -110,6 +110,8 @@ std::vector<EstimateCase> cases() {
     if (!Params::abilities.has(Ability::exemplar)) return add("large", {}, {900, 700}, 0);
     add("large", {128, 96}, {900, 700}, 3);
     add("large_exemplar", {700, 500}, {200, 256}, 4);
+    // Where writing and showing the result count.
+    if (kind == HistogramParams::kind) add("written", {64, 64}, {2400, 2000}, 3);
   });
   return all;
 }

@@ -34,13 +34,16 @@ fuzz() {
   seeds "$target" "$corpus" 2>/dev/null
   local log=$found/log
   # No more memory than a reader may want; the leaks of libraries that are never unloaded are theirs.
-  ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 "$build/tests/fuzz/${target}_fuzz" -max_total_time="$seconds" \
-    -timeout=20 -rss_limit_mb=4096 -max_len=65536 -artifact_prefix="$found/" -print_final_stats=1 "$corpus" >"$log" 2>&1
+  { time ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 "$build/tests/fuzz/${target}_fuzz" \
+    -max_total_time="$seconds" -timeout=60 -rss_limit_mb=4096 -max_len=65536 -artifact_prefix="$found/" \
+    -print_final_stats=1 "$corpus" >"$log" 2>&1; } 2>"$found/cpu"
   local code=$?
-  echo "$target: $(sed -n 's/stat::number_of_executed_units: *//p' "$log") executions, $(find "$found" -name 'crash-*' -o -name 'oom-*' -o -name 'timeout-*' | wc -l) findings"
+  echo "$target: $(sed -n 's/stat::number_of_executed_units: *//p' "$log") executions, $(<"$found/cpu") CPU seconds," \
+    "$(find "$found" -name 'crash-*' -o -name 'oom-*' -o -name 'timeout-*' | wc -l) findings"
   return $code
 }
 
+TIMEFORMAT='%U + %S'
 failed=0 running=0
 for target in "${targets[@]}"; do
   fuzz "$target" &

@@ -87,15 +87,14 @@ TEST_F(TextFile, AFullDiskLeavesTheOldFileAndNothingElse) {
     image.pixels[i] = static_cast<float>((i * 2654435761u) >> 8 & 255) / 255.0f;
   const TensorData tensor{{64, 64, 3}, image.pixels};
 
-  const std::map<std::string, std::function<void(const std::filesystem::path&)>> writers{
+  std::map<std::string, std::function<void(const std::filesystem::path&)>> writers{
       {"a.txt", [](const auto& to) { write_text(to, std::string(100'000, 'x')); }},
-      {"a.png", [&](const auto& to) { write_image(to, image, {}); }},
-      {"a.jpg", [&](const auto& to) { write_image(to, image, {}); }},
-      {"a.tif", [&](const auto& to) { write_image(to, image, {}); }},
-      {"a.exr", [&](const auto& to) { write_image(to, image, {}); }},
       {"a.safetensors", [&](const auto& to) {
          write_tensors(to, {{"t", tensor}});
        }}};
+  for (const auto* ending : {"png", "jpg", "tif", "exr", "tga", "bmp", "ppm", "hdr"})
+    writers.emplace(fmt::format("a.{}", ending),
+                    [&](const auto& to) { write_image(to, image, {}); });
   for (const auto& [name, write] : writers) {
     write_text(path(name), "old");
     EXPECT_EQ(error_on_full_disk(500, [&] { write(path(name)); }),
