@@ -157,13 +157,15 @@ Texture synthesise(const PatchmatchParams& params, const Request& request, const
       if (!control.report(progress)) throw Interrupted();
     }
   }
-  // Of a large texture each of these takes gigabytes, and all at once are not needed.
+  // Of a large texture each of these takes gigabytes, and all at once are not needed. What is free
+  // would stay with the process.
   field.distance = {};
+  malloc_trim(0);
   const auto pixels = choose_pixels(field, canvas, levels.front().exemplar);
   field = {};
   canvas = {};
   levels.clear();
-  malloc_trim(0);  // or what was theirs stays with the process
+  malloc_trim(0);
   return texture_of(sources_of(pixels, size, target.size, exemplar.size()), request.exemplars);
 }
 
@@ -178,8 +180,8 @@ Cost estimate(const PatchmatchParams& params, const RequestSize& request) {
   const double counts = area(request.size.width + exemplar.width, exemplar.height + 96);
   // A level has a quarter of the work of the next finer one, but more iterations.
   const double iterations = params.iterations * 4.0 / 3 + more_iterations * 4.0 / 9;
-  // A field, its canvas and a coarser field; or, at the end, origins, sources and their picture.
-  const double bytes_per_pixel = std::max(32.0, 12 + 4.0 * channels);
+  // A field, its canvas and penalties; or, at the end, origins, sources and their picture.
+  const double bytes_per_pixel = std::max(28.0, 12 + 4.0 * channels);
   return {
       .bytes = pixels * bytes_per_pixel + samples * (48 + 4.0 * channels) + counts * 4,
       .work = {.serial = 0.1,

@@ -43,15 +43,13 @@ void check_given(const InferenceDescription& description, const std::vector<doub
 // The rows of a table, by the model's names.
 std::vector<std::vector<double>> poses_of_table(const InferWork& work,
                                                 const InferenceDescription& description) {
-  const PoseTable table = read_pose_table(work.poses);
+  std::vector<std::string> names;
+  for (const PoseNumber& number : description.pose) names.push_back(number.name);
+  const PoseTable table = read_pose_table(work.poses, names);
   std::vector<std::size_t> columns;
-  for (const PoseNumber& number : description.pose) {
-    const auto found = std::find(table.names.begin(), table.names.end(), number.name);
-    if (found == table.names.end())
-      throw ConfigError("{}:1: has no column '{}', one of the model's", work.poses.string(),
-                        number.name);
-    columns.push_back(static_cast<std::size_t>(found - table.names.begin()));
-  }
+  for (const std::string& name : names)
+    columns.push_back(static_cast<std::size_t>(
+        std::find(table.names.begin(), table.names.end(), name) - table.names.begin()));
   if (table.poses.empty()) throw ConfigError("{}: has no poses", work.poses.string());
   std::vector<std::vector<double>> poses;
   for (std::size_t i = 0; i < table.poses.size(); ++i) {
@@ -75,8 +73,14 @@ std::vector<std::vector<double>> poses_of(const InferWork& work,
 }
 
 std::vector<fs::path> files_of(const InferWork& work, std::size_t count) {
-  if (work.poses.empty() && work.to.empty()) return {work.output};
-  return frame_files(work.output, count, work.format);
+  const bool one = work.poses.empty() && work.to.empty();
+  if (one && !work.format.empty())
+    throw ConfigError(
+        "--format is for several pictures, of --to or --poses: one is as --output "
+        "is called, {}",
+        work.output.filename().string());
+  if (one) return {work.output};
+  return frame_files(work.output, count, work.format.empty() ? "exr" : work.format);
 }
 
 // How values become those of a file: integers reach from the model's least value to its largest.

@@ -18,7 +18,7 @@ struct InferWork {
   int frames = 24;               // of that sequence
   std::filesystem::path poses;   // or a table of poses, with the model's names for columns
   std::filesystem::path output;  // the picture; of several their folder
-  std::string format = "exr";    // of files in a folder
+  std::string format;            // of files in a folder; "": exr
   bool extrapolates = false;     // poses outside the trained ranges too
 };
 

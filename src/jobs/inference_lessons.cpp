@@ -226,6 +226,7 @@ Cost estimate_inference_lesson(const ModelEntry& model) {
   PairsSize pairs;
   Work work;
   if (task.simulation.empty()) {
+    check_pictures(table, task.pairs);
     const Image first = read_image(task.pairs.parent_path() / table.pictures.front()).image;
     pairs = size_of(split, table.names.size(), first.size(), first.channels);
   } else {

@@ -65,22 +65,63 @@ void check_columns(const CsvRow& columns, const fs::path& table) {
   }
 }
 
-void add_row(const CsvRow& columns, const CsvRow& row, PoseTable& table) {
+// The columns that `names` asks for, all but the pictures' if it asks for none.
+std::vector<std::string> number_columns(const CsvRow& columns,
+                                        const std::vector<std::string>& names,
+                                        const fs::path& file) {
+  std::vector<std::string> found;
+  for (const std::string& column : columns)
+    if (column != picture_column &&
+        (names.empty() || std::find(names.begin(), names.end(), column) != names.end()))
+      found.push_back(column);
+  for (const std::string& name : names)
+    if (std::find(found.begin(), found.end(), name) == found.end())
+      throw Error("{}: has no column '{}', one of the model's", place_in(file, 1), name);
+  if (found.empty()) throw Error("{}: has no column of numbers", place_in(file, 1));
+  return found;
+}
+
+void add_row(const CsvRow& columns, const CsvRow& row, bool of_pairs, PoseTable& table) {
   if (row.size() != columns.size())
     throw Error("{} cells, the first line has {}", row.size(), columns.size());
   std::vector<double>& pose = table.poses.emplace_back();
   for (std::size_t i = 0; i < row.size(); ++i) {
     if (columns[i] == picture_column) {
-      if (row[i].empty()) throw Error("names no picture");
-      table.pictures.push_back(row[i]);
-      continue;
-    }
-    try {
-      pose.push_back(number_of(row[i]));
-    } catch (const Error& error) {
-      throw Error("{}: {}", columns[i], error.what());
+      if (of_pairs && row[i].empty()) throw Error("names no picture");
+      if (of_pairs) table.pictures.push_back(row[i]);
+    } else if (std::find(table.names.begin(), table.names.end(), columns[i]) != table.names.end()) {
+      try {
+        pose.push_back(number_of(row[i]));
+      } catch (const Error& error) {
+        throw Error("{}: {}", columns[i], error.what());
+      }
     }
   }
+}
+
+PoseTable parse_columns(std::string text, const fs::path& file,
+                        const std::vector<std::string>& names) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // as spreadsheets write it
+  if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
+  check_quotes(text, file);
+  if (!text.ends_with('\n')) text += '\n';
+  const std::vector<CsvRow> rows = parse_csv(text);
+  const CsvRow& columns = rows.front();
+  if (columns.size() == 1 && columns[0].find(';') != std::string::npos)
+    throw Error("{}: cells are parted by ';', allowed is ','", place_in(file, 1));
+  check_columns(columns, file);
+  PoseTable table;
+  table.names = number_columns(columns, names, file);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (rows[i] == CsvRow{""}) continue;
+    try {
+      add_row(columns, rows[i], names.empty(), table);
+    } catch (const Error& error) {
+      throw Error("{}: {}", place_in(file, i + 1), error.what());
+    }
+    table.lines.push_back(i + 1);
+  }
+  return table;
 }
 
 Image read_picture(const fs::path& file, InferencePairs& pairs) {
@@ -100,32 +141,14 @@ Image read_picture(const fs::path& file, InferencePairs& pairs) {
 
 }  // namespace
 
-PoseTable read_pose_table(const fs::path& file) { return parse_pose_table(read_text(file), file); }
+PoseTable read_pose_table(const fs::path& file) { return read_pose_table(file, {}); }
+
+PoseTable read_pose_table(const fs::path& file, const std::vector<std::string>& names) {
+  return parse_columns(read_text(file), file, names);
+}
 
 PoseTable parse_pose_table(std::string text, const fs::path& file) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // as spreadsheets write it
-  if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
-  check_quotes(text, file);
-  if (!text.ends_with('\n')) text += '\n';
-  const std::vector<CsvRow> rows = parse_csv(text);
-  const CsvRow& columns = rows.front();
-  if (columns.size() == 1 && columns[0].find(';') != std::string::npos)
-    throw Error("{}: cells are parted by ';', allowed is ','", place_in(file, 1));
-  check_columns(columns, file);
-  PoseTable table;
-  for (const std::string& column : columns)
-    if (column != picture_column) table.names.push_back(column);
-  if (table.names.empty()) throw Error("{}: has no column of numbers", place_in(file, 1));
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    if (rows[i] == CsvRow{""}) continue;
-    try {
-      add_row(columns, rows[i], table);
-    } catch (const Error& error) {
-      throw Error("{}: {}", place_in(file, i + 1), error.what());
-    }
-    table.lines.push_back(i + 1);
-  }
-  return table;
+  return parse_columns(std::move(text), file, {});
 }
 
 void check_pairs(const PoseTable& table, const fs::path& file) {
@@ -134,6 +157,23 @@ void check_pairs(const PoseTable& table, const fs::path& file) {
     throw Error("{}: has no column '{}'", place_in(file, 1), picture_column);
   if (count < fewest_pairs)
     throw Error("{}: has {} pairs, needed are {} at least", file.string(), count, fewest_pairs);
+}
+
+void check_pictures(const PoseTable& table, const fs::path& file) {
+  Size first;
+  for (std::size_t i = 0; i < table.pictures.size(); ++i) {
+    const fs::path picture = file.parent_path() / table.pictures[i];
+    try {
+      Size size = read_image_size(picture);
+      if (size.width > size.height) std::swap(size.width, size.height);  // it may be turned yet
+      if (i == 0) first = size;
+      if (size != first)
+        throw Error("{} has sides of {} and {}, the first picture of {} and {}", picture.string(),
+                    size.width, size.height, first.width, first.height);
+    } catch (const Error& error) {
+      throw Error("{}: {}", place_in(file, table.lines[i]), error.what());
+    }
+  }
 }
 
 InferencePairs read_pairs(const fs::path& file, FileHashes& hashes) {

@@ -74,6 +74,28 @@ std::vector<Lesson> all_lessons(const Config& config) {
   return lessons;
 }
 
+// What a training is expected to take. Throws Error for what keeps it from beginning.
+Cost estimate_lesson(const Config& config, const Lesson& lesson) {
+  return is_inference(config, lesson) ? estimate_inference_lesson(config.models[lesson.model])
+                                      : estimate_generator_lesson(config, lesson);
+}
+
+// Before the first one begins, which may take an hour. Returns those that can begin.
+std::vector<Lesson> without_impossible(const Config& config, const std::vector<Lesson>& lessons,
+                                       ProgressBar& bar, Trained& trained) {
+  std::vector<Lesson> possible;
+  for (const Lesson& lesson : lessons) {
+    try {
+      estimate_lesson(config, lesson);
+      possible.push_back(lesson);
+    } catch (const Error& error) {
+      ++trained.failed;
+      bar.complaint(fmt::format("{}: failed: {}", lesson.name, first_line(error.what())));
+    }
+  }
+  return possible;
+}
+
 // As --only means them.
 std::vector<std::string> model_names(const Config& config) {
   std::vector<std::string> names;
@@ -114,8 +136,7 @@ std::vector<Expectation> expected_lessons(const Config& config, const std::strin
     const ModelEntry& model = config.models[lesson.model];
     if (is_inference(config, lesson)) check_frames(model);
     try {
-      const Cost cost = is_inference(config, lesson) ? estimate_inference_lesson(model)
-                                                     : estimate_generator_lesson(config, lesson);
+      const Cost cost = estimate_lesson(config, lesson);
       if (!speed) speed = machine_speed(true);
       expected.push_back({lesson.name, cost.bytes, seconds(cost.work, *speed), ""});
     } catch (const Error& error) {
@@ -156,10 +177,11 @@ Trained train_models(const Config& config, const RunOptions& options, ProgressBa
     throw ConfigError("--output {}: {}", options.output.string(), error.what());
   }
   FileHashes hashes;
-  for (std::size_t i = 0; i < lessons.size(); ++i) {
-    const Lesson& lesson = lessons[i];
+  const std::vector<Lesson> possible = without_impossible(config, lessons, bar, trained);
+  for (std::size_t i = 0; i < possible.size(); ++i) {
+    const Lesson& lesson = possible[i];
     const JobFiles files = job_files(options.output, "models/" + lesson.name);
-    bar.start("training " + lesson.name, i + 1, lessons.size());
+    bar.start("training " + lesson.name, i + 1, possible.size());
     const LessonRun run{config, lesson, options, bar, files, hashes};
     try {
       train(run);

@@ -79,7 +79,7 @@ TEST_F(InferCommand, LearnsPairsAndInfersPictures) {
                 .output,
             "s/frame_0001.exr\ns/frame_0002.exr\ns/frame_0003.exr\n");
   EXPECT_EQ(read_image(folder_ / "s/frame_0003.exr").image, picture.image);
-  write_text(folder_ / "poses.csv", "twist,frame,bend\n-0.5,1,30\n0,2,15\n");
+  write_text(folder_ / "poses.csv", "twist,frame,bend,picture\n-0.5,first of all,30,\n0,,15,\n");
   EXPECT_EQ(run({"infer", model_, "--poses", "poses.csv", "--output", "t", "--quiet"}).exit_code,
             0);
   EXPECT_EQ(read_image(folder_ / "t/frame_0001.exr").image, picture.image);
@@ -104,6 +104,8 @@ TEST_F(InferCommand, MistakesAreOneLineAndExitCode2) {
   expect_refused({"--output", "y.exr"}, "needed is --pose or --poses");
   expect_refused({"--pose", "3,0", "--output", "e.png"}, "would replace e.png");
   expect_refused({"--pose", "3,0", "--output", "y.xyz"}, "xyz");
+  expect_refused({"--pose", "3,0", "--output", "y.exr", "--format", "png"},
+                 "--format is for several pictures");
   write_text(folder_ / "q.csv", "bend\n3\n");
   expect_refused({"--poses", "q.csv", "--output", "t"}, "q.csv:1: has no column 'twist'");
   write_text(folder_ / "q.csv", "bend,twist\n3,0\n3,9\n");
@@ -127,6 +129,22 @@ TEST_F(InferCommand, PairsThatDoNotMatchFailInOneLine) {
   EXPECT_TRUE(is_one_line(outcome.errors)) << outcome.errors;
   EXPECT_THAT(outcome.errors, HasSubstr("folds: failed: "));
   EXPECT_THAT(outcome.errors, HasSubstr("pairs.csv:14: "));
+
+  // Before another one is trained, which may take an hour; that one is trained all the same.
+  const std::string good = file("i.toml");
+  write_text(folder_ / "i.toml",
+             "[[model]]\nname = 'later'\nkind = 'inference'\nsteps = 5\n"
+             "batch = 4\npairs = 'good.csv'\n" +
+                 good);
+  std::string table = file("pairs.csv");
+  write_text(folder_ / "good.csv", table.substr(0, table.find("q.exr")));
+  const Outcome two = train();
+  EXPECT_EQ(two.exit_code, 1);
+  EXPECT_LT(two.errors.find("folds: failed: "), two.errors.find("later: trained in "));
+  EXPECT_TRUE(fs::exists(folder_ / "o/models/later.safetensors"));
+  write_image(folder_ / "q.exr", Image(9, 8, 1), {});
+  EXPECT_THAT(train({"--quiet"}).errors, HasSubstr("has sides of 8 and 9, the first picture"));
+
   config("");
   const Outcome neither = train();
   EXPECT_EQ(neither.exit_code, 2);
