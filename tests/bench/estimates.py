@@ -37,6 +37,13 @@ METHODS = [
     ("neural", 'preset = "fast"', 3e5),
     ("neural", 'preset = "gatys"\niterations = 20', 1e5),
 ]
+# keys of an inference, side and number of its pictures
+TRAININGS = [
+    ("steps = 200", 64, 32),
+    ("steps = 200", 128, 128),
+    ("steps = 100\nbatch = 32", 128, 32),
+    ("steps = 100\nhidden = [64, 32]", 256, 16),
+]
 SIZES = [(128, 128), (128, 512), (512, 512), (512, 1024), (1024, 512), (256, 2048)]  # exemplar, result
 CHANNELS = [1, 3, 4]
 
@@ -60,8 +67,8 @@ def exemplar(gramloom, folder, side, channels):
     return file
 
 
-def measured(gramloom, folder, config):
-    process = subprocess.Popen([gramloom, "run", config, "--output", folder / "out", "--quiet"],
+def measured(gramloom, folder, config, command="run"):
+    process = subprocess.Popen([gramloom, command, config, "--output", folder / "out", "--quiet"],
                                stderr=subprocess.PIPE)
     began = time.monotonic()
     errors = process.stderr.read().decode()
@@ -92,6 +99,27 @@ def compare(gramloom, folder, kind, keys, side, channels, size):
             f"   time {wall:7.2f} s {wall / time_expected:5.2f}   cpu {cpu:7.2f} s {cpu / time_expected:5.2f}")
 
 
+def compare_training(gramloom, folder, keys, side, count):
+    """Of an inference from one number to pictures, each noise of its own."""
+    generator = numpy.random.default_rng(1)
+    rows = ["picture,bend"]
+    for i in range(count):
+        picture = folder / f"pair_{i}.png"
+        Image.fromarray(generator.integers(0, 256, (side, side, 3), numpy.uint8)).save(picture)
+        rows.append(f"{picture},{i}")
+    (folder / "pairs.csv").write_text("\n".join(rows) + "\n")
+    config = folder / "training.toml"
+    config.write_text(f'[[model]]\nname = "m"\nkind = "inference"\npairs = "pairs.csv"\n{keys}\n')
+    checked = json.loads(subprocess.run([gramloom, "check", config, "--json"], capture_output=True, check=True).stdout)
+    expected = checked["models"][0]
+    memory, wall, cpu, errors = measured(gramloom, folder, config, "train")
+    if errors:
+        return f"inference: {errors}"
+    what = "inference " + " ".join(keys.split())
+    return (f"{what:42} {count:5} pairs of {side}²  memory {memory / 1e6:7.0f} MB {memory / expected['memory']:5.2f}"
+            f"   time {wall:7.2f} s {wall / expected['seconds']:5.2f}")
+
+
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
@@ -106,6 +134,9 @@ def main():
                     continue
                 for channels in CHANNELS if takes_exemplar else [3]:
                     print(compare(gramloom, Path(folder), kind, keys, side, channels, size), flush=True)
+        if not wanted or "inference" in wanted:
+            for keys, side, count in TRAININGS:
+                print(compare_training(gramloom, Path(folder), keys, side, count), flush=True)
 
 
 main()
