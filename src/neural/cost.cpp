@@ -22,10 +22,12 @@ constexpr double seconds_per_remembered = 3e-10;      // value of L-BFGS
 constexpr double evaluations_per_step = 1.1;          // of L-BFGS
 constexpr double seconds_per_pixel_of_fill = 7.5e-7;  // known or made, in a step of a layout
 constexpr double pictures_of_fill = 12;
-constexpr double whole_pictures = 2;      // beside those of a fill's window
-constexpr double directed_patches = 2.5;  // seconds, where each has its own place and goal
-constexpr double optimiser_values = 9;    // in memory, for each of the picture's
-constexpr double packed_bytes = 8e6;      // a thread: oneDNN's packed matrices, most with AVX2
+constexpr double whole_pictures = 2;          // beside those of a fill's window
+constexpr double directed_patches = 2.5;      // seconds, where each has its own place and goal
+constexpr double optimiser_values = 9;        // in memory, for each of the picture's
+constexpr double bytes_of_patch = 250;        // of an exemplar, in a layout
+constexpr double most_patches = 512.0 * 512;  // that a layout looks at
+constexpr double packed_bytes = 8e6;          // a thread: oneDNN's packed matrices, most with AVX2
 
 // Which part of a fill's patches is compared: those with a pixel of a hole.
 double counted_share(double made) { return std::min(1.0, 1.3 * made + 0.01); }
@@ -144,7 +146,8 @@ Cost estimate(const NeuralParams& asked, const RequestSize& request) {
   if (params.layout == Layout::flow)  // vectors of patches and their neighbours, and pictures
     cost.bytes =
         std::max(cost.bytes, size.result * (48 * (1 + 2 * params.remembered()) + 40) +
-                                 sizeof(float) * channels * (8 * size.result + 8 * size.exemplar));
+                                 sizeof(float) * channels * (8 * size.result + 8 * size.exemplar) +
+                                 bytes_of_patch * std::min(size.exemplar, most_patches));
   cost.bytes += packed_bytes * thread_count();
   if (request.known)  // pictures and masks of the whole, most of which stays
     cost.bytes += sizeof(float) * pictures_of_fill * channels * canvas.width * canvas.height;
