@@ -4,10 +4,11 @@
 # crash, never a result called done that is not whole; exit code 0 only where all of the run is there
 # and whole, 1 only with a line for each job that is not; and afterwards --resume ends with an
 # undisturbed run's bytes. Needs root for the full disk and the quota.
-#   tests/soak/faults.sh [TIMES] [build/gramloom]
+#   tests/soak/faults.sh [TIMES] [build/gramloom] [FORMAT]      of the textures' files: png, tif, exr, jpg
 set -uo pipefail
 times=${1:-20}
 gramloom=$(readlink -f "${2:-build/gramloom}")
+format=${3:-png}
 data=$(dirname "$(readlink -f "$0")")/../../data
 command -v fiu-run >/dev/null || { echo "faults.sh: fiu-run is not installed (Debian: fiu-utils)" >&2; exit 77; }
 folder=$(mktemp -d)
@@ -16,7 +17,8 @@ trap clean_up EXIT
 cd "$folder" || exit 1
 
 {
-  printf 'size = [72, 64]\nseeds = [1, 2]\n[[exemplar]]\nname = "granite"\nimage = "%s/granite.png"\nmax_side = 72\n' "$data"
+  printf 'size = [72, 64]\nseeds = [1, 2]\nformat = "%s"\n' "$format"
+  printf '[[exemplar]]\nname = "granite"\nimage = "%s/granite.png"\nmax_side = 72\n' "$data"
   for kind in quilting patchmatch phase; do printf '[[method]]\nname = "%s"\nkind = "%s"\n' $kind $kind; done
   printf '[[method]]\nname = "neural"\nkind = "neural"\nlayout = "noise"\niterations = [20]\n'
 } >all.toml
@@ -42,7 +44,7 @@ expect_all() {  # that a folder holds all of the undisturbed run of $config
   diff <(files "$1") <(files $config) >&2 || fault "other files than an undisturbed run's"
   while read -r file; do
     case $file in
-      *.png | */diversity.json) cmp "$1/$file" "$config/$file" >&2 || fault "$file differs" ;;
+      *.png | *."$format" | */diversity.json) cmp "$1/$file" "$config/$file" >&2 || fault "$file differs" ;;
       */seed*.json) is_done "$1/$file" || fault "$file is not done" ;;
       scores.csv) diff <(scores "$1/$file") <(scores "$config/$file") >&2 || fault "other scores" ;;
       index.html) tail -n 2 "$1/$file" | grep -q '</html>' || fault "the page is cut off" ;;
@@ -57,7 +59,7 @@ judge() {  # exit code, folder
   for record in $config/*/*/seed*.json; do
     job=${record#"$config"/} job=${job%.json}
     if is_done "$2/$job.json"; then
-      cmp -s "$2/$job.png" "$config/$job.png" || fault "$job is called done and is not whole"
+      cmp -s "$2/$job.$format" "$config/$job.$format" || fault "$job is called done and is not whole"
     elif [ "$1" = 1 ]; then
       grep -q "^$job: failed: .\|^gramloom: [^n]" log || fault "exit code 1 and no word of $job"
     fi
