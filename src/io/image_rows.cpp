@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <new>
 #include <string_view>
 
 #include "core/error.h"
@@ -27,7 +28,8 @@ namespace fs = std::filesystem;
 class WatchedFile : public OIIO::Filesystem::IOProxy {
  public:
   explicit WatchedFile(int descriptor) : IOProxy("", Write), descriptor_(descriptor) {}
-  // Of a "file", OpenImageIO would give libjpeg the stream.
+  // libjpeg would write to the stream of a "file" itself, and end the process when that fails; of
+  // any other kind OpenImageIO takes a JPEG's bytes from memory.
   const char* proxytype() const override { return "watched"; }
   bool seek(std::int64_t offset) override {
     send();
@@ -36,7 +38,11 @@ class WatchedFile : public OIIO::Filesystem::IOProxy {
   }
   std::size_t write(const void* bytes, std::size_t size) override {
     constexpr std::size_t enough = 1 << 20;
-    waiting_.append(static_cast<const char*>(bytes), size);
+    try {
+      waiting_.append(static_cast<const char*>(bytes), size);
+    } catch (const std::bad_alloc&) {
+      if (error_ == 0) error_ = ENOMEM;
+    }
     m_pos += static_cast<std::int64_t>(size);
     size_ = std::max(size_, static_cast<std::size_t>(m_pos));
     if (waiting_.size() >= enough) send();
@@ -49,10 +55,14 @@ class WatchedFile : public OIIO::Filesystem::IOProxy {
     std::int64_t at = m_pos - std::ssize(waiting_);
     for (std::string_view left = waiting_; !left.empty() && error_ == 0;) {
       const ssize_t count = ::pwrite(descriptor_, left.data(), left.size(), at);
-      if (count < 0 && errno != EINTR) error_ = errno;
-      if (count <= 0) continue;
-      left.remove_prefix(static_cast<std::size_t>(count));
-      at += count;
+      if (count > 0) {
+        left.remove_prefix(static_cast<std::size_t>(count));
+        at += count;
+      } else if (count == 0) {
+        error_ = EIO;  // or it would be tried for ever
+      } else if (errno != EINTR) {
+        error_ = errno;
+      }
     }
     waiting_.clear();
   }

@@ -7,7 +7,8 @@
 
 namespace gramloom {
 
-/// A picture that is written row by row, so that it need not fit into memory. The file appears when
+/// A picture that is written row by row, so that it need not fit into memory (of a JPEG, the file
+/// has to). The file appears when
 /// finish() is called, complete, or not at all.
 class ImageRows {
  public:

@@ -61,7 +61,8 @@ std::vector<std::string> write_file(const fs::path& path, const Image& image,
   return file->finish();
 }
 
-// From the beginning to the end, while writers of some formats go back.
+// A device cannot be written at an earlier place, as writers of some formats do: so the file is
+// made in memory first.
 std::vector<std::string> write_device(const fs::path& path, const Image& image,
                                       const Encoding& encoding, const Metadata& metadata) {
   const std::string extension = path.extension().string();
@@ -73,11 +74,13 @@ std::vector<std::string> write_device(const fs::path& path, const Image& image,
   Clamped clamped;
   count_clamped(image.pixels.data(), image.pixels.size(), stored, clamped);
   note_clamped(clamped, stored, notes);
-  Image held = image;
-  if (stored == PixelType::half) clamp_to_half(held.pixels);
-  write_text(path,
-             encode(*output, make_spec(format, image.size(), image.channels, encoding, metadata),
-                    held, extension));
+  Image held;
+  if (stored == PixelType::half && clamped.beyond > 0) {
+    held = image;
+    clamp_to_half(held.pixels);
+  }
+  const OIIO::ImageSpec spec = make_spec(format, image.size(), image.channels, encoding, metadata);
+  write_text(path, encode(*output, spec, held.empty() ? image : held, extension));
   return notes;
 }
 

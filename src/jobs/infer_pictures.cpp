@@ -76,8 +76,7 @@ std::vector<fs::path> files_of(const InferWork& work, std::size_t count) {
   const bool one = work.poses.empty() && work.to.empty();
   if (one && !work.format.empty())
     throw ConfigError(
-        "--format is for several pictures, of --to or --poses: one is as --output "
-        "is called, {}",
+        "--format is for several pictures, of --to or --poses: one takes its type from '{}'",
         work.output.filename().string());
   if (one) return {work.output};
   return frame_files(work.output, count, work.format.empty() ? "exr" : work.format);

@@ -165,7 +165,7 @@ void check_pictures(const PoseTable& table, const fs::path& file) {
     const fs::path picture = file.parent_path() / table.pictures[i];
     try {
       Size size = read_image_size(picture);
-      if (size.width > size.height) std::swap(size.width, size.height);  // it may be turned yet
+      if (size.width > size.height) std::swap(size.width, size.height);  // EXIF may turn it yet
       if (i == 0) first = size;
       if (size != first)
         throw Error("{} has sides of {} and {}, the first picture of {} and {}", picture.string(),

@@ -31,17 +31,17 @@ struct PoseTable {
 /// Throws Error in one line with file and line: no numbers, two columns of one name, a row of
 /// another number of cells, a cell that is no number, a row without its picture.
 PoseTable read_pose_table(const std::filesystem::path& table);
-/// Only the columns of these names, in the table's order: others may hold anything. Throws Error
-/// too where one is missing.
+/// Only the columns of these names, in the table's order: others may hold anything, and there are
+/// no pictures. Throws Error too where one is missing.
 PoseTable read_pose_table(const std::filesystem::path& table,
                           const std::vector<std::string>& names);
-/// The first of a text; `table` is what errors call it.
+/// As the first, of a text; `table` is what errors call it.
 PoseTable parse_pose_table(std::string text, const std::filesystem::path& table);
 
 /// Throws Error when a table has no column 'picture', or fewer than `fewest_pairs`.
 void check_pairs(const PoseTable& table, const std::filesystem::path& file);
-/// Throws Error where one of the table's pictures is none, or not of the first one's size, by the
-/// files' headers: before anything long begins.
+/// Throws Error where one of the table's pictures is none, or its sides are not those of the first
+/// one, by the files' headers: before anything long begins. What only pixels show is not looked at.
 void check_pictures(const PoseTable& table, const std::filesystem::path& file);
 inline constexpr std::size_t fewest_pairs = 8;
 

@@ -80,18 +80,35 @@ Cost estimate_lesson(const Config& config, const Lesson& lesson) {
                                       : estimate_generator_lesson(config, lesson);
 }
 
-// Before the first one begins, which may take an hour. Returns those that can begin.
+// Whether all went well. Else it is counted and told, and others go on. Throws Interrupted.
+template <class Action>
+bool or_failed(const Lesson& lesson, ProgressBar& bar, Trained& trained, const Action& action) {
+  const auto failed = [&](const std::string& why) {
+    ++trained.failed;
+    bar.complaint(fmt::format("{}: failed: {}", lesson.name, why));
+    return false;
+  };
+  try {
+    action();
+    return true;
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return failed("out of memory");
+  } catch (const std::exception& error) {
+    return failed(first_line(error.what()));
+  }
+}
+
+// Those that can be trained, found before the first one begins, which may take an hour.
 std::vector<Lesson> without_impossible(const Config& config, const std::vector<Lesson>& lessons,
-                                       ProgressBar& bar, Trained& trained) {
+                                       const RunOptions& options, ProgressBar& bar,
+                                       Trained& trained) {
   std::vector<Lesson> possible;
   for (const Lesson& lesson : lessons) {
-    try {
-      estimate_lesson(config, lesson);
+    if (options.stop && options.stop()) throw Interrupted();
+    if (or_failed(lesson, bar, trained, [&] { estimate_lesson(config, lesson); }))
       possible.push_back(lesson);
-    } catch (const Error& error) {
-      ++trained.failed;
-      bar.complaint(fmt::format("{}: failed: {}", lesson.name, first_line(error.what())));
-    }
   }
   return possible;
 }
@@ -177,28 +194,19 @@ Trained train_models(const Config& config, const RunOptions& options, ProgressBa
     throw ConfigError("--output {}: {}", options.output.string(), error.what());
   }
   FileHashes hashes;
-  const std::vector<Lesson> possible = without_impossible(config, lessons, bar, trained);
-  for (std::size_t i = 0; i < possible.size(); ++i) {
-    const Lesson& lesson = possible[i];
-    const JobFiles files = job_files(options.output, "models/" + lesson.name);
-    bar.start("training " + lesson.name, i + 1, possible.size());
-    const LessonRun run{config, lesson, options, bar, files, hashes};
-    try {
-      train(run);
-    } catch (const Interrupted&) {
-      trained.interrupted = true;
-      return trained;
-    } catch (const std::bad_alloc&) {
-      ++trained.failed;
-      bar.complaint(fmt::format("{}: failed: out of memory", lesson.name));
-      continue;
-    } catch (const std::exception& error) {
-      ++trained.failed;
-      bar.complaint(fmt::format("{}: failed: {}", lesson.name, first_line(error.what())));
-      continue;
+  try {
+    const auto possible = without_impossible(config, lessons, options, bar, trained);
+    for (std::size_t i = 0; i < possible.size(); ++i) {
+      const Lesson& lesson = possible[i];
+      const JobFiles files = job_files(options.output, "models/" + lesson.name);
+      bar.start("training " + lesson.name, i + 1, possible.size());
+      const LessonRun run{config, lesson, options, bar, files, hashes};
+      if (!or_failed(lesson, bar, trained, [&] { train(run); })) continue;
+      for (MethodEntry& method : methods_of(config, lesson, files))
+        trained.methods.push_back(std::move(method));
     }
-    for (MethodEntry& method : methods_of(config, lesson, files))
-      trained.methods.push_back(std::move(method));
+  } catch (const Interrupted&) {
+    trained.interrupted = true;
   }
   return trained;
 }

@@ -8,7 +8,9 @@
 #include <thread>
 #include <vector>
 
+#include "core/random.h"
 #include "io/image_file.h"
+#include "io/image_rows.h"
 #include "io/safetensors.h"
 #include "io/temp_folder.h"
 
@@ -102,6 +104,25 @@ TEST_F(TextFile, AFullDiskLeavesTheOldFileAndNothingElse) {
     EXPECT_EQ(read_text(path(name)), "old");
   }
   EXPECT_EQ(file_count(), static_cast<std::ptrdiff_t>(writers.size()));
+}
+
+// More than is kept back before it is sent: the disk is full between two pieces of the picture.
+TEST_F(TextFile, ADiskThatFillsInTheMiddleOfAPicture) {
+  Image image(900, 900, 3);
+  Random random(1);
+  for (float& value : image.pixels) value = random.uniform();
+  for (const auto* ending : {"png", "jpg", "tif", "exr", "tga", "bmp", "ppm", "hdr"}) {
+    const auto to = path(fmt::format("a.{}", ending));
+    EXPECT_EQ(error_on_full_disk(500'000,
+                                 [&] {
+                                   const auto rows = open_image_rows(to, image.size(), 3, {});
+                                   for (int y = 0; y < image.height; y += 450)
+                                     rows->write(image.at(0, y), 450);
+                                   rows->finish();
+                                 }),
+              to.string() + ": cannot write: File too large");
+  }
+  EXPECT_EQ(file_count(), 0);
 }
 
 TEST_F(TextFile, WritersAtOnceLeaveOneCompleteFile) {
