@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <fstream>
+#include <iterator>
 #include <map>
 
 #include "core/error.h"
@@ -125,7 +126,12 @@ Mesh read_mesh(const std::filesystem::path& path) {
   config.triangulate = true;
   config.vertex_color = false;
   tinyobj::ObjReader reader;
-  if (!reader.ParseFromFile(file.name(), config)) {
+  // Of a text, no material's file is opened: we need none, and beside the opened file, whose name
+  // is that of a descriptor, its name could be that of any other one.
+  lines.clear();
+  lines.seekg(0);
+  const std::string text(std::istreambuf_iterator<char>(lines), {});
+  if (!reader.ParseFromString(text, "", config)) {
     const std::string& why = reader.Error();
     throw Error("{}: not a mesh that can be read{}{}", name, why.empty() ? "" : ": ",
                 why.substr(0, why.find('\n')));

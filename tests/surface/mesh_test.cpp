@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <array>
 #include <limits>
 #include <map>
 
@@ -200,6 +202,17 @@ class MeshFile : public TempFolder {
 };
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+// Where nobody writes, a reader of materials would wait for ever: the mesh's file is opened here
+// and read by its descriptor's name, beside which "0" is the program's input.
+TEST_F(MeshFile, NoFileOfMaterialsIsOpened) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  const Mesh found = read(fmt::format(
+      "mtllib {}\nmtllib none.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", ends[0]));
+  EXPECT_EQ(found.triangles.size(), 1u);
+  for (const int end : ends) close(end);
+}
 
 TEST_F(MeshFile, PolygonsBecomeTrianglesWithNormalsAndCoordinates) {
   const Mesh mesh = read(square + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
