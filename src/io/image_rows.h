@@ -8,8 +8,7 @@
 namespace gramloom {
 
 /// A picture that is written row by row, so that it need not fit into memory (of a JPEG, the file
-/// has to). The file appears when
-/// finish() is called, complete, or not at all.
+/// has to). The file appears when finish() is called, complete, or not at all.
 class ImageRows {
  public:
   virtual ~ImageRows() = default;

@@ -4,11 +4,11 @@
 
 #include <charconv>
 #include <fstream>
-#include <iterator>
 #include <map>
 
 #include "core/error.h"
 #include "io/regular_file.h"
+#include "io/text_file.h"
 #include "surface/surface_module.h"
 
 namespace gramloom::surface_module {
@@ -128,10 +128,7 @@ Mesh read_mesh(const std::filesystem::path& path) {
   tinyobj::ObjReader reader;
   // Of a text, no material's file is opened: we need none, and beside the opened file, whose name
   // is that of a descriptor, its name could be that of any other one.
-  lines.clear();
-  lines.seekg(0);
-  const std::string text(std::istreambuf_iterator<char>(lines), {});
-  if (!reader.ParseFromString(text, "", config)) {
+  if (!reader.ParseFromString(read_text(file.name()), "", config)) {
     const std::string& why = reader.Error();
     throw Error("{}: not a mesh that can be read{}{}", name, why.empty() ? "" : ": ",
                 why.substr(0, why.find('\n')));
