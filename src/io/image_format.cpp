@@ -135,7 +135,10 @@ OIIO::ImageSpec make_spec(const Format& format, Size size, int channels, const E
       alpha == spec.channelnames.end() ? -1 : static_cast<int>(alpha - spec.channelnames.begin());
   // Or OpenImageIO divides colours by alpha; a TIFF says which of the two it has.
   if (format.name != "tiff" || !encoding.premultiplied) spec.attribute("oiio:UnassociatedAlpha", 1);
-  if (!encoding.colour_space.empty()) spec.attribute("oiio:ColorSpace", encoding.colour_space);
+  // Of a TIFF OpenImageIO would write an EXIF part, and for it read what is already written:
+  // neither a pipe nor our files can. The description says it.
+  if (format.name != "tiff" && !encoding.colour_space.empty())
+    spec.attribute("oiio:ColorSpace", encoding.colour_space);
   spec.attribute("ImageDescription", describe(format, {spec.channelnames, encoding.colour_space,
                                                        metadata, encoding.premultiplied}));
   if (!encoding.icc_profile.empty())
@@ -147,8 +150,6 @@ OIIO::ImageSpec make_spec(const Format& format, Size size, int channels, const E
     if (const auto text = metadata.find(name); text != metadata.end())
       spec.attribute(name, text->second);
   add_resolution(spec, metadata);
-  // An EXIF part in a TIFF needs to read what is already written, which memory here does not allow.
-  spec.attribute("tiff:write_exif", 0);
   spec.attribute("DateTime", "");  // or OpenImageIO writes the time of day into TIFF and EXR
   if (format.name == "jpeg") {
     spec.attribute("Compression", "jpeg:98");

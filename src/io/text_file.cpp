@@ -5,13 +5,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <utility>
 
 #include "core/error.h"
 #include "io/replacing_file.h"
+#include "io/write_all.h"
 
 namespace gramloom {
 namespace {
@@ -46,26 +46,6 @@ class File {
  private:
   int descriptor_;
 };
-
-/// After a call that failed: whether to try it again, when there is something to read or room to
-/// write.
-bool wait_for(int descriptor, short event) {
-  if (errno == EINTR) return true;
-  pollfd waiting{descriptor, event, 0};
-  return errno == EAGAIN && (poll(&waiting, 1, -1) > 0 || errno == EINTR);
-}
-
-bool write_all(int descriptor, std::string_view text) {
-  // Linux writes at most 2 GB a call.
-  constexpr std::size_t most = 1 << 30;
-  while (!text.empty()) {
-    const ssize_t count = write(descriptor, text.data(), std::min(text.size(), most));
-    if (count < 0 && wait_for(descriptor, POLLOUT)) continue;
-    if (count < 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(count));
-  }
-  return true;
-}
 
 void write_device(const fs::path& path, std::string_view text) {
   File file(path, O_WRONLY);

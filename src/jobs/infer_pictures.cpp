@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "io/models_folder.h"
 #include "jobs/frame_sequence.h"
-#include "jobs/inference_pairs.h"
+#include "jobs/pose_table.h"
 #include "jobs/protected_files.h"
 #include "runs/csv_fields.h"
 #include "runs/frames.h"

@@ -6,22 +6,14 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/random.h"
-#include "io/text_file.h"
 #include "jobs/map_file.h"
 #include "jobs/memory.h"
-#include "runs/csv_fields.h"
 
 namespace gramloom {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::string_view picture_column = "picture";
-
-std::string place_in(const fs::path& table, std::size_t line) {
-  return fmt::format("{}:{}", table.string(), line);
-}
 
 // With the range that each has in these poses.
 std::vector<PoseNumber> numbers_of(const std::vector<std::string>& names,
@@ -35,93 +27,6 @@ std::vector<PoseNumber> numbers_of(const std::vector<std::string>& names,
     }
   }
   return numbers;
-}
-
-double number_of(const std::string& cell) {
-  const auto value = from_cell<double>(cell);
-  if (!std::isfinite(value)) throw Error("'{}' is not a finite number", cell);
-  return value;
-}
-
-// What follows an open quote would be one cell, and the rest of the table lost.
-void check_quotes(const std::string& text, const fs::path& table) {
-  std::size_t line = 1, opened = 0;
-  bool quoted = false;
-  for (const char c : text) {
-    if (c == '"') {
-      quoted = !quoted;
-      opened = line;
-    }
-    if (c == '\n') ++line;
-  }
-  if (quoted) throw Error("{}: a quote is not closed", place_in(table, opened));
-}
-
-void check_columns(const CsvRow& columns, const fs::path& table) {
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (columns[i].empty()) throw Error("{}: column {} has no name", place_in(table, 1), i + 1);
-    if (std::count(columns.begin(), columns.end(), columns[i]) > 1)
-      throw Error("{}: two columns are called '{}'", place_in(table, 1), columns[i]);
-  }
-}
-
-// The columns that `names` asks for, all but the pictures' if it asks for none.
-std::vector<std::string> number_columns(const CsvRow& columns,
-                                        const std::vector<std::string>& names,
-                                        const fs::path& file) {
-  std::vector<std::string> found;
-  for (const std::string& column : columns)
-    if (column != picture_column &&
-        (names.empty() || std::find(names.begin(), names.end(), column) != names.end()))
-      found.push_back(column);
-  for (const std::string& name : names)
-    if (std::find(found.begin(), found.end(), name) == found.end())
-      throw Error("{}: has no column '{}', one of the model's", place_in(file, 1), name);
-  if (found.empty()) throw Error("{}: has no column of numbers", place_in(file, 1));
-  return found;
-}
-
-void add_row(const CsvRow& columns, const CsvRow& row, bool of_pairs, PoseTable& table) {
-  if (row.size() != columns.size())
-    throw Error("{} cells, the first line has {}", row.size(), columns.size());
-  std::vector<double>& pose = table.poses.emplace_back();
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    if (columns[i] == picture_column) {
-      if (of_pairs && row[i].empty()) throw Error("names no picture");
-      if (of_pairs) table.pictures.push_back(row[i]);
-    } else if (std::find(table.names.begin(), table.names.end(), columns[i]) != table.names.end()) {
-      try {
-        pose.push_back(number_of(row[i]));
-      } catch (const Error& error) {
-        throw Error("{}: {}", columns[i], error.what());
-      }
-    }
-  }
-}
-
-PoseTable parse_columns(std::string text, const fs::path& file,
-                        const std::vector<std::string>& names) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // as spreadsheets write it
-  if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
-  check_quotes(text, file);
-  if (!text.ends_with('\n')) text += '\n';
-  const std::vector<CsvRow> rows = parse_csv(text);
-  const CsvRow& columns = rows.front();
-  if (columns.size() == 1 && columns[0].find(';') != std::string::npos)
-    throw Error("{}: cells are parted by ';', allowed is ','", place_in(file, 1));
-  check_columns(columns, file);
-  PoseTable table;
-  table.names = number_columns(columns, names, file);
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    if (rows[i] == CsvRow{""}) continue;
-    try {
-      add_row(columns, rows[i], names.empty(), table);
-    } catch (const Error& error) {
-      throw Error("{}: {}", place_in(file, i + 1), error.what());
-    }
-    table.lines.push_back(i + 1);
-  }
-  return table;
 }
 
 Image read_picture(const fs::path& file, InferencePairs& pairs) {
@@ -140,16 +45,6 @@ Image read_picture(const fs::path& file, InferencePairs& pairs) {
 }
 
 }  // namespace
-
-PoseTable read_pose_table(const fs::path& file) { return read_pose_table(file, {}); }
-
-PoseTable read_pose_table(const fs::path& file, const std::vector<std::string>& names) {
-  return parse_columns(read_text(file), file, names);
-}
-
-PoseTable parse_pose_table(std::string text, const fs::path& file) {
-  return parse_columns(std::move(text), file, {});
-}
 
 void check_pairs(const PoseTable& table, const fs::path& file) {
   const std::size_t count = table.poses.size();

@@ -7,6 +7,7 @@
 
 #include "core/image.h"
 #include "jobs/inputs.h"
+#include "jobs/pose_table.h"
 #include "learnt/inference_model.h"
 
 namespace gramloom {
@@ -20,23 +21,6 @@ struct InferencePairs {
   MapKind values = MapKind::scalar;
   std::string hash;  // of the table and all pictures
 };
-
-/// A table of poses: its first line names the columns, lines of nothing count for none.
-struct PoseTable {
-  std::vector<std::string> names;  // of the numbers
-  std::vector<std::vector<double>> poses;
-  std::vector<std::string> pictures;  // of the column 'picture', if there is one
-  std::vector<std::size_t> lines;     // where each pose stands
-};
-/// Throws Error in one line with file and line: no numbers, two columns of one name, a row of
-/// another number of cells, a cell that is no number, a row without its picture.
-PoseTable read_pose_table(const std::filesystem::path& table);
-/// Only the columns of these names, in the table's order: others may hold anything, and there are
-/// no pictures. Throws Error too where one is missing.
-PoseTable read_pose_table(const std::filesystem::path& table,
-                          const std::vector<std::string>& names);
-/// As the first, of a text; `table` is what errors call it.
-PoseTable parse_pose_table(std::string text, const std::filesystem::path& table);
 
 /// Throws Error when a table has no column 'picture', or fewer than `fewest_pairs`.
 void check_pairs(const PoseTable& table, const std::filesystem::path& file);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 
 #include "io/text_file.h"
 #include "jobs/folder_lock.h"
@@ -10,9 +9,7 @@
 #include "jobs/inference_lessons.h"
 #include "jobs/input_files.h"
 #include "jobs/machine_speed.h"
-#include "jobs/names.h"
 #include "jobs/output_guard.h"
-#include "jobs/pattern.h"
 #include "jobs/plan.h"
 #include "jobs/text_table.h"
 
@@ -22,10 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_inference(const Config& config, const Lesson& lesson) {
-  return std::holds_alternative<InferenceTask>(config.models[lesson.model].recipe);
-}
-
 void train(const LessonRun& run) {
   if (is_inference(run.config, run.lesson))
     train_inference_lesson(run);
@@ -33,45 +26,10 @@ void train(const LessonRun& run) {
     train_generator_lesson(run);
 }
 
-// Files of two lessons are not the same, and no name is too long for one.
-void check_names(const Config& config, const std::vector<Lesson>& lessons) {
-  std::set<std::string> names;
-  for (const Lesson& lesson : lessons) {
-    const std::string& place = config.models[lesson.model].place;
-    if (!names.insert(in_small_letters(lesson.name)).second)
-      throw ConfigError("{}: two models would be called '{}': rename one", place, lesson.name);
-    if (lesson.name.size() + std::string_view(".checkpoint.csv").size() > longest_file_name)
-      throw ConfigError("{}: the name '{}' is too long for a file", place, lesson.name);
-  }
-}
-
 std::vector<MethodEntry> methods_of(const Config& config, const Lesson& lesson,
                                     const JobFiles& files) {
   if (is_inference(config, lesson)) return {};
   return methods_of_generator(config, lesson, files);
-}
-
-std::vector<Lesson> all_lessons(const Config& config) {
-  std::vector<Lesson> lessons;
-  for (std::size_t m = 0; m < config.models.size(); ++m) {
-    const std::string& name = config.models[m].name;
-    if (std::holds_alternative<InferenceTask>(config.models[m].recipe)) {
-      lessons.push_back({m, {}, name});
-      continue;
-    }
-    const auto& recipe = std::get<GeneratorRecipe>(config.models[m].recipe);
-    std::vector<std::size_t> wanted;
-    for (std::size_t e = 0; e < config.exemplars.size(); ++e)
-      if (recipe.exemplars.empty() ||
-          std::ranges::count(recipe.exemplars, config.exemplars[e].name))
-        wanted.push_back(e);
-    if (recipe.blend)
-      lessons.push_back({m, wanted, name});
-    else
-      for (const std::size_t e : wanted)
-        lessons.push_back({m, {e}, fmt::format("{}_{}", config.exemplars[e].name, name)});
-  }
-  return lessons;
 }
 
 // What a training is expected to take. Throws Error for what keeps it from beginning.
@@ -113,40 +71,10 @@ std::vector<Lesson> without_impossible(const Config& config, const std::vector<L
   return possible;
 }
 
-// As --only means them.
-std::vector<std::string> model_names(const Config& config) {
-  std::vector<std::string> names;
-  for (const Lesson& lesson : all_lessons(config)) {
-    const std::string& model = config.models[lesson.model].name;
-    if (lesson.exemplars.empty()) names.push_back(model);
-    for (const std::size_t exemplar : lesson.exemplars)
-      names.push_back(fmt::format("{}/{}", config.exemplars[exemplar].name, model));
-  }
-  return names;
-}
-
-// Whether its name is one that --only means, or that of a job of its textures.
-bool is_wanted(const Config& config, const Lesson& lesson, const std::string& only) {
-  const std::string& model = config.models[lesson.model].name;
-  if (lesson.exemplars.empty()) return only.empty() || matches(only, model);
-  for (const std::size_t exemplar : lesson.exemplars)
-    for (const int seed : config.seeds)
-      if (job_matches(only,
-                      fmt::format("{}/{}/seed{}", config.exemplars[exemplar].name, model, seed)))
-        return true;
-  return false;
-}
-
 }  // namespace
 
-std::vector<Lesson> lessons_of(const Config& config, const std::string& only) {
-  std::vector<Lesson> lessons = all_lessons(config);
-  std::erase_if(lessons, [&](const Lesson& lesson) { return !is_wanted(config, lesson, only); });
-  return lessons;
-}
-
 std::vector<Expectation> expected_lessons(const Config& config, const std::string& only) {
-  check_names(config, lessons_of(config));
+  check_lesson_names(config);
   std::vector<Expectation> expected;
   std::optional<Speed> speed;
   for (const Lesson& lesson : lessons_of(config, only)) {
@@ -165,11 +93,11 @@ std::vector<Expectation> expected_lessons(const Config& config, const std::strin
 
 Trained train_models(const Config& config, const RunOptions& options, ProgressBar& bar) {
   Trained trained;
-  check_names(config, lessons_of(config));
+  check_lesson_names(config);
   const std::vector<Lesson> lessons = lessons_of(config, options.only);
   if (lessons.empty())
     throw ConfigError("--only {}: no model of {} matches (there are {})", options.only,
-                      config.file.string(), fmt::join(model_names(config), ", "));
+                      config.file.string(), fmt::join(lesson_names(config), ", "));
   for (const Lesson& lesson : lessons)
     if (is_inference(config, lesson)) check_frames(config.models[lesson.model]);
   const fs::path folder = options.output / "models";

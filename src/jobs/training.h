@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -8,21 +7,11 @@
 
 #include "jobs/config.h"
 #include "jobs/expectation.h"
+#include "jobs/lessons.h"
 #include "jobs/progress_bar.h"
 #include "jobs/runner.h"
 
 namespace gramloom {
-
-/// A model to train: a [[model]] of the config. A generator is of one exemplar, or of several to
-/// blend; an inference of none.
-struct Lesson {
-  std::size_t model = 0;               // of the config
-  std::vector<std::size_t> exemplars;  // of the config
-  std::string name;                    // of its files: "pebbles_stones", or the model's for a blend
-};
-/// Those that match `only` (job_matches()) as the jobs of their textures do, EXEMPLAR/MODEL; an
-/// inference has its own name.
-std::vector<Lesson> lessons_of(const Config& config, const std::string& only = "");
 
 /// The models that a config trains, of those that match `only`, with what each is expected to need.
 /// Throws ConfigError for a sequence of poses outside what would be learnt.

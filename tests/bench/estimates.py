@@ -112,7 +112,7 @@ def compare_training(gramloom, folder, keys, side, count):
     config.write_text(f'[[model]]\nname = "m"\nkind = "inference"\npairs = "pairs.csv"\n{keys}\n')
     checked = json.loads(subprocess.run([gramloom, "check", config, "--json"], capture_output=True, check=True).stdout)
     expected = checked["models"][0]
-    memory, wall, cpu, errors = measured(gramloom, folder, config, "train")
+    memory, wall, _, errors = measured(gramloom, folder, config, "train")
     if errors:
         return f"inference: {errors}"
     what = "inference " + " ".join(keys.split())

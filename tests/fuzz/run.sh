@@ -34,6 +34,7 @@ fuzz() {
   seeds "$target" "$corpus" 2>/dev/null
   local log=$found/log
   # No more memory than a reader may want; the leaks of libraries that are never unloaded are theirs.
+  # No reader takes a second: a minute is for a machine that is busy with other things.
   { time ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 "$build/tests/fuzz/${target}_fuzz" \
     -max_total_time="$seconds" -timeout=60 -rss_limit_mb=4096 -max_len=65536 -artifact_prefix="$found/" \
     -print_final_stats=1 "$corpus" >"$log" 2>&1; } 2>"$found/cpu"

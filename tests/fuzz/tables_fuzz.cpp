@@ -1,6 +1,6 @@
 // Tables: traces, scores, poses.
 #include "fuzz.h"
-#include "jobs/inference_pairs.h"
+#include "jobs/pose_table.h"
 #include "runs/csv.h"
 #include "runs/score_sheet.h"
 #include "runs/trace_file.h"

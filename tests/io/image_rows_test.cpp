@@ -1,6 +1,8 @@
 #include "io/image_rows.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -64,6 +66,16 @@ TEST_F(ImageRowsFile, RowByRowIsTheSameFileAsAtOnce) {
     }
 }
 
+// One that was left behind would tell how long the writing took: OpenImageIO writes it anew every
+// few seconds.
+TEST_F(ImageRowsFile, ATiffHasOneDirectory) {
+  for (const char* colour_space : {"", "sRGB", "Linear"}) {
+    write("a.tif", noise({300, 500}, 3), {PixelType::uint8, colour_space, {}}, 64);
+    EXPECT_EQ(read_text(folder_ / "a.tif").substr(0, 8), std::string("II*\0\10\0\0\0", 8))
+        << "at byte 8, where it was begun";
+  }
+}
+
 TEST_F(ImageRowsFile, AppearsCompleteOrNotAtAll) {
   write_text(folder_ / "a.png", "of before");
   const Image image = noise({8, 20}, 3);
@@ -86,8 +98,42 @@ TEST_F(ImageRowsFile, SaysWhatWasClampedAndWhatWasNotFinite) {
   EXPECT_THAT(write("a.png", image, {}, 3),
               testing::ElementsAre(HasSubstr("3.12 % of the values, which reach from -1 to 3")));
   image.pixels[20] = std::nanf("");
-  EXPECT_THAT([&] { write("a.png", image, {}, 3); },
-              testing::ThrowsMessage<Error>(HasSubstr("a.png: holds NaN")));
+  EXPECT_THAT(
+      [&] { write("a.png", image, {}, 3); },
+      testing::ThrowsMessage<Error>(HasSubstr("a.png: the value at x 4, y 2, channel 0 is nan")));
+}
+
+TEST_F(ImageRowsFile, SaysThatAlphaIsUnusual) {
+  Image image(8, 8, 4, 1.0f);
+  const Encoding premultiplied{PixelType::uint8, "", {"R", "G", "B", "A"}, true};
+  EXPECT_THAT(write("a.png", image, premultiplied, 3), IsEmpty());
+  image.at(3, 7)[3] = 0.5f;
+  EXPECT_THAT(
+      write("a.png", image, premultiplied, 3),
+      testing::ElementsAre("colours are multiplied by alpha, which is unusual in a png file"));
+  EXPECT_THAT(write("a.tif", image, premultiplied, 3), IsEmpty());
+}
+
+// A pipe has no earlier place to go back to, so its file is made in memory.
+TEST_F(ImageRowsFile, APipeGetsTheBytesOfTheFile) {
+  const Image image = noise({37, 70}, 3);
+  for (const std::string extension :
+       {".png", ".tif", ".exr", ".jpg", ".bmp", ".tga", ".ppm", ".hdr"})
+    for (const PixelType type : {PixelType::uint8, PixelType::uint16, PixelType::half}) {
+      const Encoding encoding{type, "", {}};
+      const auto notes = write_image(folder_ / ("file" + extension), image, encoding, {{"a", "b"}});
+      const fs::path pipe = folder_ / ("pipe" + extension);
+      ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+      const int end = open(pipe.c_str(), O_RDWR | O_NONBLOCK);  // it holds 64 kB
+      const auto pipe_notes = write_image(pipe, image, encoding, {{"a", "b"}});
+      std::string bytes(1 << 16, '\0');
+      bytes.resize(
+          static_cast<std::size_t>(std::max<ssize_t>(read(end, bytes.data(), bytes.size()), 0)));
+      close(end);
+      EXPECT_TRUE(bytes == read_text(folder_ / ("file" + extension))) << extension;
+      EXPECT_EQ(pipe_notes, notes);
+      fs::remove(pipe);
+    }
 }
 
 TEST_F(ImageRowsFile, RefusesWithThePath) {

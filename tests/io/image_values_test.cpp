@@ -47,6 +47,17 @@ std::string tiff(const std::vector<T>& numbers, std::uint16_t kind) {
   return bytes;
 }
 
+TEST_F(ImageValues, OfFewAndVeryLongRows) {
+  constexpr int width = 400'001, channels = 3;
+  std::string bytes = fmt::format("P6\n{} 2\n255\n", width);
+  for (int i = 0; i < 2 * width * channels; ++i) bytes += static_cast<char>(i % 251);
+  write_text(path("a.ppm"), bytes);
+  const Image image = read_image(path("a.ppm")).image;
+  ASSERT_EQ(image.size(), (Size{width, 2}));
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    ASSERT_EQ(image.pixels[i], static_cast<float>(i % 251) / 255.0f) << i;
+}
+
 TEST_F(ImageValues, NumbersOfOtherTypesComeAsTheyAre) {
   const auto read = [&](const std::string& bytes) {
     write_text(path("a.tif"), bytes);

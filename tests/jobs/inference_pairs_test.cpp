@@ -95,6 +95,10 @@ TEST_F(PairsTest, MistakesAreToldWithFileAndLine) {
   EXPECT_EQ(with(3, "p3.exr,,-1"), "t.csv:5: bend: '' is not a number");
   EXPECT_EQ(with(3, "p3.exr,nan,-1"), "t.csv:5: bend: 'nan' is not a finite number");
   EXPECT_THAT(with(3, "q.exr,3,-1"), HasSubstr("t.csv:5: "));
+  rows_.insert(rows_.begin(), "\"p0\n.exr\",0,-1");
+  EXPECT_EQ(with(4, "p3.exr,x,-1"), "t.csv:7: bend: 'x' is not a number")
+      << "after two lines of one row";
+  rows_.erase(rows_.begin());
   EXPECT_THAT(with(3, "q.exr,3,-1"), HasSubstr("q.exr"));
   write_image(folder_ / "wide.exr", Image(8, 4, 1, 1), {PixelType::float32, "", {}});
   EXPECT_THAT(with(3, "wide.exr,3,-1"),
