@@ -24,7 +24,7 @@ bool read_values_into(OIIO::ImageInput& input, OIIO::TypeDesc type, void* values
   const OIIO::ImageSpec spec = input.spec();
   if (!is_converted_by_us(spec)) return input.read_image(0, 0, 0, spec.nchannels, type, values);
   std::vector<std::byte> stored(spec.image_bytes());
-  return input.read_image(0, 0, 0, spec.nchannels, spec.format, stored.data()) &&
+  return input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UNKNOWN, stored.data()) &&
          OIIO::convert_image(spec.nchannels, spec.width, spec.height, spec.depth, stored.data(),
                              spec.format, OIIO::AutoStride, OIIO::AutoStride, OIIO::AutoStride,
                              values, type, OIIO::AutoStride, OIIO::AutoStride, OIIO::AutoStride);
