@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <filesystem>
 
 #include "commands/command.h"
 #include "core/error.h"
@@ -30,6 +31,10 @@ int main(int argc, char** argv) {
     return run_program(argc, argv);
   } catch (const ConfigError& error) {
     print_message(error.what());
+    return bad_usage;
+  } catch (
+      const std::filesystem::filesystem_error& error) {  // a name that cannot even be looked at
+    print_message(fmt::format("{}: {}", error.path1().string(), error.code().message()));
     return bad_usage;
   } catch (const std::bad_alloc&) {
     print_message("gramloom: out of memory");

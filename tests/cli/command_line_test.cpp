@@ -52,6 +52,19 @@ TEST_F(CommandLine, BadUsageIsOneLineAndExitCode2) {
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
+TEST_F(CommandLine, AFileThatCannotEvenBeLookedAtIsNamed) {
+  const std::string file(300, 'a');  // longer than the system's names
+  const std::vector<std::vector<std::string>> cases{{"make", file + ".png", "--output", "o.png"},
+                                                    {"new", "a.toml", "--from", file + ".png"},
+                                                    {"run", file + ".toml"}};
+  for (const auto& arguments : cases) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments[0];
+    EXPECT_THAT(outcome.errors, testing::HasSubstr(": File name too long")) << arguments[0];
+    EXPECT_THAT(outcome.errors, testing::Not(testing::HasSubstr("filesystem error")));
+  }
+}
+
 TEST_F(CommandLine, AnUnknownWordIsNamedWithTheOneThatMayBeMeant) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{}, "needed is a command"},
