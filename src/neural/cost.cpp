@@ -25,7 +25,7 @@ constexpr double pictures_of_fill = 12;
 constexpr double whole_pictures = 2;          // beside those of a fill's window
 constexpr double directed_patches = 2.5;      // seconds, where each has its own place and goal
 constexpr double optimiser_values = 9;        // in memory, for each of the picture's
-constexpr double bytes_of_patch = 250;        // of an exemplar, in a layout
+constexpr double bytes_of_patch = 235;        // of an exemplar, in a layout
 constexpr double most_patches = 512.0 * 512;  // that a layout looks at
 constexpr double packed_bytes = 8e6;          // a thread: oneDNN's packed matrices, most with AVX2
 
